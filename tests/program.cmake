@@ -71,6 +71,10 @@ function(cornerd_add_test_program name)
     endif()
     list(APPEND arg_LABELS long)
   endif()
+  # They replace operator new, which the thread sanitizer does itself.
+  if(CORNERD_SANITIZE MATCHES "thread")
+    list(FILTER arg_SOURCES EXCLUDE REGEX "allocation")
+  endif()
   cornerd_add_executable(${name} SOURCES ${arg_SOURCES} LINK ${arg_LINK} gmock gtest gtest_main)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   # What is tested is optimised, in its library; most of a test's time is its compilation.
