@@ -12,8 +12,6 @@ namespace {
 
 /// Maps are named where the robot is in one of them but for this share of belief.
 constexpr double kMaxInNone = 0.01;
-/// Scans so far apart count as independent.
-constexpr double kIndependent_m = 1;
 /// So many nats of a scan are worth one of belief: things that are in no map move many rays at
 /// once. Where they stop 30 % of the rays, in 4,000 scans on like floors, another floor was more
 /// likely than the right one by 5 nats in 0.5 %, by 10 in 0.1 %, and by 22 once.

@@ -15,10 +15,6 @@ namespace cornerd::core {
 /// A scan may name the wrong one of several places so often, by its own account: the places of an
 /// answer hold the truth but for this share of belief.
 inline constexpr double kWrongFixRate = 1e-5;
-/// Belief that an ambiguous scan was taken elsewhere, at least. Where the likeliest place is not
-/// likely enough for a fix, evidence is weak and promises too much: 3 % of such scans are elsewhere
-/// (`cornerd-bench --localizer`, src/bench/poses.md, "Reliability of the posterior").
-inline constexpr double kLeastDoubt = 0.03;
 
 struct Decision {
   PoseState state = PoseState::kLost;

@@ -8,12 +8,10 @@
 namespace cornerd::core {
 namespace {
 
-/// Scans so far apart show other walls, or other things before them. Between 0.5 and 4 m it makes
-/// no difference to drives in maps that are 3 cm off, among 30 to 40 % of clutter, and in wrong
-/// maps.
-constexpr double kIndependent_m = 2;
 /// The logarithm of the number of places of a map that differ.
 constexpr double kLogPlaces = 12;
+/// Log odds of a place that one scan has shown.
+const double kMostOfOneScan = std::log((1 - kLeastDoubt) / kLeastDoubt);
 /// Log odds are of the best of a map's places. How much likelier they are at the right place than
 /// at a given wrong one, nats: a line through the histogram of 16,000 right and 48,000 wrong places
 /// (`cornerd-bench --evidence`, fit_evidence.py), which has hardly a wrong one beyond its limits.
@@ -34,7 +32,7 @@ double log_ratio_at(double log_odds) {
 }  // namespace
 
 void PlaceFilter::confirm(const Pose2& T_map_lidar) {
-  places_.front() = {T_map_lidar, T_map_lidar, kLogOddsAgainstCarried, 0, true};
+  places_.front() = {T_map_lidar, T_map_lidar, kLogOddsAgainstCarried, 0, 0, true};
   count_ = 1;
 }
 
@@ -47,16 +45,17 @@ void PlaceFilter::follow(const Pose2& T_map_lidar) {
                  [](const Place& place) { return place.is_named; });
 }
 
-double PlaceFilter::weigh(Place& place, const Pose2& T_map_lidar, double log_ratio) {
-  const double way_m = (T_map_lidar.translation() - place.T_map_anchor.translation()).norm();
-  const double fresh = std::min(1.0, way_m / kIndependent_m);
-  const double log_odds = place.base + fresh * place.anchored + log_ratio;
-  if (fresh == 1) {
-    place.base = std::clamp(place.base + place.anchored, -kLogPlaces, kLogOddsAgainstCarried);
-    place.anchored = log_ratio;
-    place.T_map_anchor = T_map_lidar;
-  }
+double PlaceFilter::weigh(Place& place, const Pose2& T_map_lidar, double evidence) {
   place.T_map_lidar = T_map_lidar;
+  place.evidence += evidence;
+  ++place.scans;
+  const double way_m = (T_map_lidar.translation() - place.T_map_begin.translation()).norm();
+  const double share = std::min(1.0, way_m / kIndependent_m);
+  const double log_odds = place.base + share * log_ratio_at(place.evidence / place.scans);
+  if (share == 1) {
+    const double base = std::clamp(log_odds, -kLogPlaces, kLogOddsAgainstCarried);
+    place = {T_map_lidar, T_map_lidar, base, 0, 0, place.is_named};
+  }
   return log_odds;
 }
 
@@ -100,7 +99,7 @@ void PlaceFilter::update(std::span<const VerifiedHypothesis> found,
     Place place = places_[i];
     const VerifiedHypothesis* const at = find(place, found, prior);
     if (at && !is_known(at)) {
-      const double now = weigh(place, at->refined.T_map_lidar, log_ratio_at(at->evidence));
+      const double now = weigh(place, at->refined.T_map_lidar, at->evidence);
       keep(place, at, now);
     } else if (!at && place.is_named && prior) {
       // That a scan does not show it is no evidence: it may be covered.
@@ -111,8 +110,8 @@ void PlaceFilter::update(std::span<const VerifiedHypothesis> found,
     if (count_ == kMaxPlaces || place.log_odds <= kEvenLogOdds) break;
     if (is_known(&place)) continue;
     const Pose2& T_map_lidar = place.refined.T_map_lidar;
-    const double log_ratio = log_ratio_at(place.log_odds);
-    keep({T_map_lidar, T_map_lidar, -kLogPlaces, log_ratio, false}, &place, log_ratio - kLogPlaces);
+    const double start = std::min(place.log_odds, kMostOfOneScan);
+    keep({T_map_lidar, T_map_lidar, start, 0, 0, false}, &place, start);
   }
   std::size_t best = count_;
   for (std::size_t i = 0; i < count_; ++i) {

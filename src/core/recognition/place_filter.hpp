@@ -11,10 +11,18 @@
 
 namespace cornerd::core {
 
+/// Belief that an ambiguous scan was taken elsewhere, at least. Where the likeliest place is not
+/// likely enough for a fix, evidence is weak and promises too much: 3 % of such scans are elsewhere
+/// (`cornerd-bench --localizer`, src/bench/poses.md, "Reliability of the posterior").
+inline constexpr double kLeastDoubt = 0.03;
+
+/// Scans so far apart show other walls, or other things before them.
+inline constexpr double kIndependent_m = 1;
+
 /// Bayes filter over the places where an inexact map may have been scanned. Each place has log odds
 /// against "anywhere else, or not in this map", which every scan changes by how much likelier its
 /// evidence is there than at a given wrong place. Scans from nearly one pose see the same errors of
-/// the map: they count once.
+/// the map: all those of a stretch of way count as one, by the mean of their evidence.
 class PlaceFilter {
  public:
   static constexpr std::size_t kMaxPlaces = 16;
@@ -35,14 +43,15 @@ class PlaceFilter {
 
  private:
   struct Place {
-    Pose2 T_map_lidar;      ///< in the last scan
-    Pose2 T_map_anchor;     ///< where `anchored` was counted
-    double base = 0;        ///< log odds by all before `anchored`
-    double anchored = 0;    ///< likelihood ratio of the scan at the anchor, nats
+    Pose2 T_map_lidar;    ///< in the last scan
+    Pose2 T_map_begin;    ///< where the stretch began
+    double base = 0;      ///< log odds by all before the stretch
+    double evidence = 0;  ///< sum over its scans
+    int scans = 0;
     bool is_named = false;  ///< the prior is of this one
   };
-  /// Log odds of a place whose scan at `T_map_lidar` has this likelihood ratio.
-  static double weigh(Place& place, const Pose2& T_map_lidar, double log_ratio);
+  /// Log odds of a place for which a scan at `T_map_lidar` has this evidence.
+  static double weigh(Place& place, const Pose2& T_map_lidar, double evidence);
 
   static const VerifiedHypothesis* find(Place& place, std::span<const VerifiedHypothesis> found,
                                         const std::optional<Prior>& prior);

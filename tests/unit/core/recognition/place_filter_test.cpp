@@ -25,14 +25,14 @@ void update(PlaceFilter& filter, const std::vector<VerifiedHypothesis>& found,
 TEST(PlaceFilter, OneWeakScan_NamesNothing) {
   PlaceFilter filter;
   update(filter, {place_at(1, 3)});
-  EXPECT_GT(filter.doubt(), 0.9);
+  EXPECT_GE(filter.doubt(), kLeastDoubt);
 }
 
 TEST(PlaceFilter, StandingRobot_GathersNothing) {
   PlaceFilter filter;
   for (int k = 0; k < 100; ++k) update(filter, {place_at(1, 3)});
   ASSERT_TRUE(filter.likeliest());
-  EXPECT_GT(filter.doubt(), 0.01);
+  EXPECT_GE(filter.doubt(), kLeastDoubt);
 }
 
 TEST(PlaceFilter, DrivingRobot_GathersEvidence) {
