@@ -74,7 +74,10 @@ const VerifiedHypothesis* PlaceFilter::find(Place& place, std::span<const Verifi
   if (!is_prior || is_vague) {
     const VerifiedHypothesis* const at = within(place.T_map_lidar, 0, 0);
     if (at || !is_prior) return at;
+    // What the stretch before has shown is in the prior.
     place.base = std::min(place.base, kLogOddsOfVaguePrior);
+    place.evidence = 0;
+    place.scans = 0;
   }
   return within(prior->T_map_lidar, prior->position_error_m, prior->heading_error_rad);
 }

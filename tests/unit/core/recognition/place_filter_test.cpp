@@ -105,6 +105,16 @@ TEST(PlaceFilter, VaguePrior_DoesNotNameAnotherPlaceAtOnce) {
   EXPECT_LT(filter.doubt(), kRate);
 }
 
+TEST(PlaceFilter, VaguePrior_WhatWasSeenBeforeSpeaksForNoOtherPlace) {
+  PlaceFilter filter;
+  filter.confirm({1, 0, 0});
+  for (int k = 0; k < 5; ++k) {
+    update(filter, {place_at(1 + 0.1 * k, 30)}, Prior{{1 + 0.1 * k, 0, 0}, 0.02, 0.02});
+  }
+  update(filter, {place_at(3.4, -10)}, Prior{{2.8, 0, 0}, 1.5, 3});
+  EXPECT_GT(filter.doubt(), kRate);
+}
+
 TEST(PlaceFilter, PlaceThatScansContradictForLong_IsNoLongerNamed) {
   PlaceFilter filter;
   filter.confirm({0, 0, 0});
