@@ -3,7 +3,7 @@
 add_library(cornerd_sanitizer INTERFACE)
 if(CORNERD_SANITIZE)
   # vptr looks at memory through a pipe: wrong where a test has used up all descriptors. The others are half of the
-  # compilation; the address sanitizer stops at such an access, and -Wcast-align at what is not aligned.
+  # compilation; the address sanitizer stops at such an access, and -Wcast-align at a cast to what is aligned to more.
   target_compile_options(cornerd_sanitizer INTERFACE -fsanitize=${CORNERD_SANITIZE}
     -fno-sanitize=vptr,null,object-size,pointer-overflow,alignment -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(cornerd_sanitizer INTERFACE -fsanitize=${CORNERD_SANITIZE})
