@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "replay/simulator/map_error.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "core/map/outline.hpp"
@@ -29,6 +31,12 @@ bool touches(const core::WallBox& box, const Vec2& point, double half_thickness_
   return local.x() <= box.half_length_m + reach_m && local.y() <= box.half_width_m + reach_m;
 }
 
+void check(double sigma_m) {
+  if (!(sigma_m >= 0 && std::isfinite(sigma_m))) {
+    throw std::invalid_argument("map error: the standard deviation must be 0 or more (m)");
+  }
+}
+
 }  // namespace
 
 core::Wall displaced(const core::Wall& wall, double by_m) {
@@ -37,13 +45,32 @@ core::Wall displaced(const core::Wall& wall, double by_m) {
 }
 
 core::FloorPlan with_map_error(const core::FloorPlan& plan, double sigma_m, std::uint64_t seed) {
-  if (!(sigma_m >= 0 && std::isfinite(sigma_m))) {
-    throw std::invalid_argument("map error: the standard deviation must be 0 or more (m)");
-  }
+  check(sigma_m);
   Random random(seed);
   std::vector<double> by_m;
   for (std::size_t i = 0; i < plan.walls.size(); ++i) by_m.push_back(sigma_m * random.normal());
   return with_walls_moved(plan, by_m);
+}
+
+core::FloorPlan with_end_error(const core::FloorPlan& plan, double sigma_m, std::uint64_t seed) {
+  check(sigma_m);
+  Random random(seed);
+  core::FloorPlan changed = plan;
+  std::vector<std::pair<Vec2, Vec2>> moved;  // points, and by how much
+  for (core::Wall& wall : changed.walls) {
+    for (Vec2* end : {&wall.from, &wall.to}) {
+      auto met = std::find_if(moved.begin(), moved.end(), [&](const auto& other) {
+        return (other.first - *end).norm() < kTouching_m;
+      });
+      if (met == moved.end()) {
+        const double x_m = sigma_m * random.normal();
+        moved.emplace_back(*end, Vec2(x_m, sigma_m * random.normal()));
+        met = moved.end() - 1;
+      }
+      *end += met->second;
+    }
+  }
+  return changed;
 }
 
 core::FloorPlan with_walls_moved(const core::FloorPlan& plan, std::span<const double> by_m) {

@@ -88,6 +88,16 @@ RefinedPose Localizer::Workspace::refine_by(WallOffsetFilter* walls,
   return refined;
 }
 
+RefinedPose Localizer::Workspace::with_directions(const RefinedPose& parallel,
+                                                  const VerifiedHypothesis& found) {
+  if (!parallel.shows_directions()) return parallel;
+  const RefinedPose refined = place->refinement.refine_directions(
+      *map, parallel, points.points(), noise_scale(), map_sigma_m(found));
+  const bool is_near = refined.valid && same_pose(refined.T_map_lidar, parallel.T_map_lidar,
+                                                  kMaxMove_m, kMaxMove_rad);
+  return is_near ? refined : parallel;
+}
+
 void Localizer::Workspace::teach_walls(const RefinedPose& refined,
                                        const VerifiedHypothesis& found) {
   const auto is_same_place = [&](const std::optional<Pose2>& T_map_before) {
@@ -114,9 +124,9 @@ RefinedPose Localizer::Workspace::refined_by_walls(const VerifiedHypothesis& fou
   named_in_a_row = is_next ? named_in_a_row + 1 : 0;
   const auto by_map = [&] {
     // A scan may fit a wrong map exactly: the map knows better how far off it is.
-    if (map_sigma_m(found) == found.map_sigma_m) return found.refined;
+    if (map_sigma_m(found) == found.map_sigma_m) return with_directions(found.refined, found);
     const RefinedPose refined = refine_by(nullptr, found);
-    return refined.valid ? refined : found.refined;
+    return with_directions(refined.valid ? refined : found.refined, found);
   };
   if (!place->walls) return by_map();
   RefinedPose refined = refine_by(&*place->walls, found);

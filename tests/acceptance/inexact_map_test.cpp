@@ -9,9 +9,11 @@
 #include <map>
 #include <memory>
 #include <random>
+#include <string>
 #include <utility>
 
 #include "random_places.hpp"
+#include "replay/simulator/map_error.hpp"
 #include "settings/map_file.hpp"
 
 namespace cornerd {
@@ -62,6 +64,28 @@ TEST(InexactMap, DisplacedWalls_CovarianceIsConsistent) {
     EXPECT_GT(nees, 2) << sigma_m;
     RecordProperty("nees_" + std::to_string(std::lround(1000 * sigma_m)) + "_mm",
                    std::to_string(nees));
+  }
+}
+
+TEST(InexactMap, EndsOfWallsOffByACentimetre_CovarianceIsConsistent) {
+  for (const char* name : {"flat-7", "krpai-2019-a"}) {
+    const auto map = settings::load_map(std::filesystem::path(CORNERD_SOURCE_DIR) / "config/maps" /
+                                        (std::string(name) + ".json"));
+    constexpr int kBuildings = 30;
+    double nees = 0;
+    for (std::uint64_t seed = 1; seed <= kBuildings; ++seed) {
+      const auto building =
+          std::make_shared<const core::WallMap>(replay::with_end_error(map->plan(), 0.01, seed));
+      replay::SimulatedRecordingConfig config;
+      config.simulator.seed = seed;
+      config.scans = 100;
+      const auto statistics = localize_random_places(building, map, config, /*scans_each=*/10);
+      SCOPED_TRACE(statistics.report());
+      EXPECT_EQ(statistics.wrong(), 0U);
+      nees += statistics.mean_nees() / kBuildings;
+    }
+    EXPECT_LT(nees, 5) << name;
+    EXPECT_GT(nees, 1) << name;
   }
 }
 

@@ -42,14 +42,16 @@ std::vector<MappedBuilding> changed(const Maps& maps, Change&& change) {
   return buildings;
 }
 
-/// Buildings whose walls are each moved by N(0, sigma_m) from where the map has them.
-std::vector<MappedBuilding> with_walls_off(const std::shared_ptr<const core::WallMap>& map,
-                                           double sigma_m) {
+/// Buildings whose walls, or whose walls' ends, are each moved by N(0, sigma_m) from where the map
+/// has them.
+std::vector<MappedBuilding> with_walls_off(
+    const std::shared_ptr<const core::WallMap>& map, double sigma_m,
+    const std::function<decltype(replay::with_map_error)>& moved = replay::with_map_error) {
   constexpr std::uint64_t kBuildings = 20;
   MappedBuilding building{map, {}};
   for (std::uint64_t seed = 1; seed <= kBuildings; ++seed) {
     building.worlds.push_back(
-        std::make_shared<const core::WallMap>(replay::with_map_error(map->plan(), sigma_m, seed)));
+        std::make_shared<const core::WallMap>(moved(map->plan(), sigma_m, seed)));
   }
   return {std::move(building)};
 }
@@ -179,6 +181,9 @@ std::vector<Trial> default_trials(const Maps& arenas,
   add("walls off by 1 cm, flat", with_walls_off(flat, 0.01));
   add("walls off by 3 cm, flat", with_walls_off(flat, 0.03));
   add("walls off by 5 cm, flat", with_walls_off(flat, 0.05));
+  add("ends of walls off by 1 cm, arena",
+      with_walls_off(arenas.front(), 0.01, replay::with_end_error));
+  add("ends of walls off by 1 cm, flat", with_walls_off(flat, 0.01, replay::with_end_error));
   add("40 % of the rays stopped, flat", home).clutter = 0.4;
   Trial& half = add("180 degrees, flat", home);
   half.sensor.field_of_view.width_rad = core::kPi;

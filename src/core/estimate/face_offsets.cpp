@@ -2,8 +2,10 @@
 #include "core/estimate/face_offsets.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "core/geometry/linear_solve.hpp"
 #include "core/geometry/squared.hpp"
 
 namespace cornerd::core {
@@ -46,6 +48,46 @@ double sigma_of_offsets(std::span<const FaceResidual> residuals, const WallMap& 
   return std::min(std::sqrt(variance / faces), std::max(kMostOff_m, stated_m));
 }
 
+double shown_direction_share(std::span<const FaceResidual> residuals, double sigma_m,
+                             const Eigen::Matrix3d& information, const Eigen::Vector3d& gradient) {
+  constexpr std::array kShares{0.0, 0.25, 1.0};
+  // Of the heading, the place marginalised: what directions take is of the heading alone.
+  const Eigen::Vector2d cross = information.topRightCorner<2, 1>();
+  const Eigen::Vector2d by_place =
+      inverse(Eigen::Matrix2d(information.topLeftCorner<2, 2>())) * cross;
+  const double heading_weight = information(2, 2) - by_place.dot(cross);
+  const double heading = gradient.z() - by_place.dot(gradient.head<2>());
+  const auto log_likelihood = [&](double share) {
+    double reduced_weight = heading_weight;
+    double reduced = heading;
+    double chi_square = 0;
+    double log_determinant = 0;
+    for (const FaceResidual& face : residuals) {
+      const double variance = share * face.direction_variance(sigma_m);
+      if (!(variance > 0)) continue;
+      const double weight = face.direction_weight();
+      const double direction_rad = face.direction_rad(variance);
+      reduced_weight -= squared(weight) / (weight + 1 / variance);
+      reduced -= direction_rad * weight;
+      chi_square -= direction_rad * face.direction();
+      log_determinant += std::log1p(variance * weight);
+    }
+    chi_square -= squared(reduced) / reduced_weight;
+    return -(chi_square + log_determinant + std::log(reduced_weight)) / 2;
+  };
+  std::array<double, kShares.size()> nats{};
+  std::transform(kShares.begin(), kShares.end(), nats.begin(), log_likelihood);
+  const double most = *std::max_element(nats.begin(), nats.end());
+  double sum = 0;
+  double mean = 0;
+  for (std::size_t i = 0; i < kShares.size(); ++i) {
+    const double likelihood = std::exp(nats[i] - most);
+    sum += likelihood;
+    mean += kShares[i] * likelihood;
+  }
+  return sum > 0 ? mean / sum : 0;
+}
+
 void merge_by_line(std::vector<FaceResidual>& residuals, const WallMap& map) {
   auto lines = residuals.begin();
   for (const FaceResidual& face : residuals) {
@@ -57,7 +99,9 @@ void merge_by_line(std::vector<FaceResidual>& residuals, const WallMap& map) {
     } else {
       const double side = std::copysign(1.0, line->normal.dot(face.normal));
       const Vec2 normals = line->weight * line->normal + side * face.weight * face.normal;
-      line->add({face.face, face.normal, face.weight, side * face.lever, side * face.distance});
+      line->add({face.weight, side * face.lever, face.lever_squared, side * face.distance,
+                 face.distance_lever});
+      line->length_m = std::max(line->length_m, face.length_m);
       if (line->weight > 0) line->normal = normals / line->weight;
     }
   }

@@ -25,11 +25,11 @@ constexpr double kExact_m = 0.003;
 /// Exponential forgetting with each scan: three seconds.
 constexpr double kRetained = 0.95;
 
-/// Log likelihood of the faces' residuals if each face has an offset of this variance, over that
-/// without any, nats. Pose and offsets are marginalised: `information` is the pose's without
-/// offsets, at which the gradient is zero.
+/// Log likelihood of the faces' residuals if each face has an offset of this variance, or each end
+/// of a face, over that without any, nats. Pose, offsets and directions are marginalised:
+/// `information` is the pose's without them, at which the gradient is zero.
 double log_likelihood(std::span<const FaceResidual> residuals, const Eigen::Matrix3d& information,
-                      double variance_m2) {
+                      double variance_m2, bool by_ends = false) {
   if (!(variance_m2 > 0)) return 0;
   Eigen::Matrix3d reduced = information;
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
@@ -43,6 +43,14 @@ double log_likelihood(std::span<const FaceResidual> residuals, const Eigen::Matr
     gradient += share * distance * face.gradient();
     chi_square -= share * squared(distance);
     log_determinant += std::log1p(variance_m2 * face.weight);
+    if (!by_ends) continue;
+    const double variance = face.direction_variance(std::sqrt(variance_m2));
+    const double direction_weight = face.direction_weight();
+    const double direction_rad = face.direction_rad(variance) / kShiftShare;
+    reduced(2, 2) -= squared(direction_weight) / (direction_weight + 1 / variance);
+    gradient.z() += direction_rad * direction_weight;
+    chi_square -= direction_rad * face.direction() / kShiftShare;
+    log_determinant += std::log1p(variance * direction_weight);
   }
   const SymmetricSolver<3> solver(reduced);
   const double ratio = solver.pivots().prod() / SymmetricSolver<3>(information).pivots().prod();
@@ -97,8 +105,11 @@ double log_odds_of_tape(std::span<const FaceResidual> residuals, const Covarianc
                         double shown_m2) {
   if (shown_m2 >= squared(kTape_m)) return 0;
   const Eigen::Matrix3d information = inverse(covariance);
-  return log_likelihood(residuals, information, squared(kTape_m)) -
-         log_likelihood(residuals, information, shown_m2);
+  const double as_a_whole = log_likelihood(residuals, information, squared(kTape_m));
+  const double by_ends = log_likelihood(residuals, information, squared(kTape_m), true);
+  const double of_tape =
+      std::max(as_a_whole, by_ends) + std::log((1 + std::exp(-std::abs(as_a_whole - by_ends))) / 2);
+  return of_tape - log_likelihood(residuals, information, shown_m2);
 }
 
 double FaceResidualStatistics::shown_variance_m2() const {

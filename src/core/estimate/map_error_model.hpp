@@ -6,25 +6,29 @@
 #include <span>
 #include <vector>
 
+#include "core/estimate/line_sums.hpp"
 #include "core/geometry/pose2.hpp"
 
 namespace cornerd::core {
 
-/// The residual of one face: sums over its points.
-struct FaceResidual {
-  void add(const FaceResidual& other) {
-    weight += other.weight;
-    lever += other.lever;
-    distance += other.distance;
-  }
+/// The residual of one face.
+struct FaceResidual : LineSums {
   /// Of the pose (x, y, theta): the weighted sum of the points' Jacobians.
   Eigen::Vector3d gradient() const { return {weight * normal.x(), weight * normal.y(), lever}; }
 
+  double direction_variance(double sigma_m) const {
+    return core::direction_variance(length_m, sigma_m);
+  }
+  /// For a pose that is off by so much (x, y, theta).
+  void move_pose(const Eigen::Vector3d& by) {
+    const double across_m = normal.dot(by.head<2>());
+    distance += across_m * weight + by.z() * lever;
+    distance_lever += across_m * lever + by.z() * lever_squared;
+  }
+
   std::uint32_t face = 0;
   Vec2 normal;
-  double weight = 0;    ///< 1/m^2, sum of the biweights
-  double lever = 0;     ///< weighted sum of d(distance)/d(theta), m
-  double distance = 0;  ///< weighted sum of the distances in front of the face, m
+  double length_m = 0;
 };
 
 /// One residual a face, in the order of their numbers: sums those of one face.
@@ -62,8 +66,8 @@ FaceResidualStatistics face_residual_statistics(std::span<const FaceResidual> re
 /// Pose covariance per m^2 of the offsets' variance. `residuals`: one a line (merge_by_line()).
 Covariance3 covariance_per_variance(std::span<const FaceResidual> residuals,
                                     const Covariance3& covariance);
-/// Log odds (nats) of lines that are off by N(0, 1 cm) against N(0, shown_m2), each as likely
-/// before the scan (map_error_model_test.cpp).
+/// Log odds (nats) of lines that are off by N(0, 1 cm), as a whole or each end by itself, against
+/// N(0, shown_m2), each as likely before the scan (map_error_model_test.cpp).
 double log_odds_of_tape(std::span<const FaceResidual> residuals, const Covariance3& covariance,
                         double shown_m2);
 

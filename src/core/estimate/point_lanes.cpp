@@ -107,8 +107,11 @@ FaceSums PointLanes::sum(std::size_t begin, std::size_t end, const Vec2& normal,
     squared_distances += is_inside * distance_m * distance_m;
     inside += is_inside;
   }
-  return {weights.sum(),          levers.sum(),    levers_squared.sum(),    distances.sum(),
-          distances_levers.sum(), z_squares.sum(), squared_distances.sum(), inside.sum()};
+  return {
+      {weights.sum(), levers.sum(), levers_squared.sum(), distances.sum(), distances_levers.sum()},
+      z_squares.sum(),
+      squared_distances.sum(),
+      inside.sum()};
 }
 
 }  // namespace cornerd::core

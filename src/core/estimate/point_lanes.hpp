@@ -5,29 +5,26 @@
 #include <span>
 #include <vector>
 
+#include "core/estimate/line_sums.hpp"
 #include "core/geometry/pose2.hpp"
 #include "core/polar_scan.hpp"
 #include "core/sensor_noise.hpp"
 
 namespace cornerd::core {
 
-/// Contribution of one face's points to the normal equations: sums over the points within the cut
-/// of weight, lever d(distance)/d(theta) and distance.
-struct FaceSums {
-  /// To a plane so much behind the one that they are about. Of `squared_distances` alone it is an
-  /// approximation: their mean distance is taken for 0.
-  void move(double offset_m) {
-    z_squared += 2 * offset_m * distance + offset_m * offset_m * weight;
-    distance += offset_m * weight;
-    distance_lever += offset_m * lever;
+/// Contribution of one face's points to the normal equations: sums over the points within the cut.
+struct FaceSums : LineSums {
+  /// As LineSums::move(). Of `squared_distances` alone it is an approximation: their mean distance
+  /// is taken for 0, and no angle.
+  void move(double offset_m, double angle_rad, double lever_m) {
+    const LineSums before = *this;
+    LineSums::move(offset_m, angle_rad, lever_m);
+    const double intercept_m = offset_m - angle_rad * lever_m;
+    z_squared += intercept_m * (before.distance + distance) +
+                 angle_rad * (before.distance_lever + distance_lever);
     squared_distances += offset_m * offset_m * points;
   }
 
-  double weight = 0;
-  double lever = 0;  ///< this and the next three: times the point's weight
-  double lever_squared = 0;
-  double distance = 0;
-  double distance_lever = 0;
   double z_squared = 0;  ///< sum of squared distances over variances, unweighted like the rest;
                          ///< weighted where the face has an offset of its own
   double squared_distances = 0;  ///< m^2

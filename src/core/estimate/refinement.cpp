@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/estimate/face_offsets.hpp"
+#include "core/estimate/normal_equations.hpp"
 #include "core/geometry/linear_solve.hpp"
 #include "core/geometry/squared.hpp"
 
@@ -43,43 +44,6 @@ PosePrior PosePrior::near_to(const Pose2& T_map_lidar) {
   return {T_map_lidar, sigma.cwiseAbs2().cwiseInverse().asDiagonal()};
 }
 
-struct Refinement::Step {
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d of_offsets = Eigen::Matrix3d::Zero();  ///< what marginalisation took of it
-  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-  Eigen::Vector3d gradient_of_offsets = Eigen::Vector3d::Zero();  ///< the same
-  double chi_square = 0;
-  double squared_distances = 0;
-  std::size_t inliers = 0;
-  Eigen::Matrix2d normals = Eigen::Matrix2d::Zero();  ///< sum of the inliers' n n'
-  double uneven_share = 1;                            ///< that the points' variances are of
-  double uneven_points = 0;                           ///< points about their walls' own planes
-  double uneven_square = 0;  ///< sum of their squared distances over the variances
-  double uneven_weight = 0;  ///< sum of the inverse variances over those of the walls' offsets
-
-  /// As for all that follow, in variances of the walls' offsets.
-  double mean_variance() const { return uneven_points / uneven_weight; }
-  /// The share by which the points are as uneven as they are.
-  double shown_share() const {
-    const double excess = (uneven_square / uneven_points - 1) * mean_variance();
-    return std::sqrt(std::max(0.0, squared(uneven_share) + excess));
-  }
-  /// The points' variance over the sensor's own, which is a hundredth of it at least.
-  double variance_over_sensor() const {
-    return 1 / std::max(0.01, 1 - squared(uneven_share) / mean_variance());
-  }
-
-  /// Eliminates the offset of a face: the Schur complement, of rank one.
-  void marginalise(const FaceResidual& face, double sigma_m) {
-    const Eigen::Vector3d by_offset = face.gradient();
-    const double share = 1 / (face.weight + 1 / squared(sigma_m));
-    of_offsets += share * by_offset * by_offset.transpose();
-    gradient -= share * face.distance * by_offset;
-    gradient_of_offsets += share * face.distance * by_offset;
-    chi_square -= share * squared(face.distance);
-  }
-};
-
 Refinement::Refinement(double max_range_m, const SensorNoise& noise)
     : noise_(noise), ray_caster_(max_range_m) {
   residuals_.reserve(kMaxResiduals);
@@ -100,12 +64,11 @@ void Refinement::find_hits(const WallMap& map, const Pose2& T_map_lidar,
   T_map_hits_ = T_map_lidar;
 }
 
-Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
-                                  double extra_sigma_m, double map_sigma_m,
-                                  WallOffsetFilter* walls) {
+NormalEquations Refinement::step(const WallMap& map, const Pose2& T_map_lidar, double extra_sigma_m,
+                                 double map_sigma_m, WallOffsetFilter* walls) {
   const double c = std::cos(T_map_lidar.theta_rad);
   const double s = std::sin(T_map_lidar.theta_rad);
-  Step sums;
+  NormalEquations sums;
   sums.uneven_share = uneven_share_;
   residuals_.clear();
   if (walls != nullptr) walls->begin();
@@ -127,13 +90,18 @@ Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
     FaceSums sum = lanes_.sum(begin, end, normal, height_m, extra_sigma_m, face_sigma_m);
     if (extra_sigma_m == 0 && face_sigma_m > 0 && sum.weight > 0) {
       const double offset_m = sum.distance / sum.weight;
-      sum = lanes_.sum(begin, end, normal, height_m - offset_m, uneven_share_ * face_sigma_m);
+      const double lever_m = sum.mean_lever_m();
+      const double angle_rad =
+          sum.direction_rad(direction_share_ * direction_variance(face.length_m, face_sigma_m));
+      const Vec2 turned = normal - angle_rad * Vec2(normal.y(), -normal.x());
+      sum = lanes_.sum(begin, end, turned, height_m - offset_m + angle_rad * lever_m,
+                       uneven_share_ * face_sigma_m);
       sums.uneven_points += sum.points;
       sums.uneven_square += sum.z_squared;
       sums.uneven_weight += sum.weight * squared(face_sigma_m);
-      sum.move(offset_m);
+      sum.move(offset_m, angle_rad, lever_m);
     }
-    const FaceResidual residual{met, face.normal, sum.weight, sum.lever, sum.distance};
+    const FaceResidual residual{sum, met, face.normal, face.length_m};
     if (residuals_.size() == kMaxResiduals) merge_by_face(residuals_);
     if (residuals_.size() < kMaxResiduals) residuals_.push_back(residual);
     sums.information(0, 0) += sum.weight * nx * nx;
@@ -157,7 +125,9 @@ Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
   if (walls == nullptr) {
     for (const FaceResidual& face : residuals_) {
       const double face_sigma_m = std::max(map_sigma_m, map.faces()[face.face].sigma_m);
-      if (face_sigma_m > 0 && face.weight > 0) sums.marginalise(face, face_sigma_m);
+      if (!(face_sigma_m > 0 && face.weight > 0)) continue;
+      sums.marginalise(face, face_sigma_m);
+      sums.marginalise_direction(face, direction_share_ * face.direction_variance(face_sigma_m));
     }
   } else {
     const WallOffsetFilter::Reduced reduced = walls->marginalise();
@@ -168,6 +138,8 @@ Refinement::Step Refinement::step(const WallMap& map, const Pose2& T_map_lidar,
   }
   sums.information.triangularView<Eigen::StrictlyLower>() = sums.information.transpose();
   sums.information -= sums.of_offsets;
+  sums.information(2, 2) -= sums.of_directions;
+  sums.gradient.z() -= sums.heading_of_directions;
   return sums;
 }
 
@@ -176,6 +148,7 @@ RefinedPose Refinement::refine(const WallMap& map, const Pose2& start, double se
                                std::span<const PolarPoint> points, double noise_scale,
                                double map_sigma_m, const PosePrior* prior,
                                WallOffsetFilter* walls) {
+  direction_share_ = 0;
   RefinedPose refined = gauss_newton(map, start, search_radius_m, subset, points, noise_scale,
                                      map_sigma_m, kMaxSteps, prior, walls);
   if (refined.valid) {
@@ -189,10 +162,22 @@ RefinedPose Refinement::refine(const WallMap& map, const Pose2& start, double se
   return refined;
 }
 
+RefinedPose Refinement::refine_directions(const WallMap& map, const RefinedPose& parallel,
+                                          std::span<const PolarPoint> points, double noise_scale,
+                                          double map_sigma_m) {
+  direction_share_ = parallel.direction_share;
+  const PosePrior prior = PosePrior::near_to(parallel.T_map_lidar);
+  RefinedPose refined = gauss_newton(map, parallel.T_map_lidar, 0, points, points, noise_scale,
+                                     map_sigma_m, kMaxSteps, &prior, nullptr);
+  refined.face_residuals = parallel.face_residuals;
+  return refined;
+}
+
 RefinedPose Refinement::refine_roughly(const WallMap& map, const Pose2& start,
                                        double search_radius_m, std::span<const PolarPoint> subset,
                                        double noise_scale, double map_sigma_m) {
   const PosePrior prior = PosePrior::near_to(start);
+  direction_share_ = 0;
   return gauss_newton(map, start, search_radius_m, subset, subset, noise_scale, map_sigma_m, 1,
                       &prior, nullptr);
 }
@@ -206,11 +191,15 @@ RefinedPose Refinement::gauss_newton(const WallMap& map, const Pose2& start, dou
   refined.T_map_lidar = start;
   double extra_sigma_m = search_radius_m;
   SymmetricSolver<3> solver;
-  Step sums;
+  NormalEquations sums;
   const bool shows_sigma = map_sigma_m > 0 && walls == nullptr && !map.plan().is_inexact();
   const double stated_m = map_sigma_m;
   uneven_share_ = 1;
   points_ = {};
+  const auto shown_by = [&](const NormalEquations& of) {
+    return shown_direction_share(residuals_, map_sigma_m, of.information_of_parallel(),
+                                 of.gradient_of_parallel());
+  };
   for (int k = 0; k < kMaxSteps; ++k) {
     const bool rough = extra_sigma_m > 0.004;
     const double step_extra_sigma_m = rough ? extra_sigma_m : 0;
@@ -240,8 +229,10 @@ RefinedPose Refinement::gauss_newton(const WallMap& map, const Pose2& start, dou
     if (rough || !shows_sigma || !(sums.uneven_weight > 0)) continue;
     map_sigma_m = sigma_of_offsets(residuals_, map, stated_m, map_sigma_m);
     uneven_share_ = std::clamp(sums.shown_share(), kEvenShare, 1.0);
+    if (direction_share_ > 0) direction_share_ = shown_by(sums);
   }
   refined.map_sigma_m = map_sigma_m;
+  if (shows_sigma) refined.direction_share = shown_by(sums);
   const auto inliers = static_cast<double>(sums.inliers);
   refined.reduced_chi_square = sums.chi_square / std::max(1.0, inliers - 3);
   refined.spread = refined.reduced_chi_square;
@@ -249,17 +240,17 @@ RefinedPose Refinement::gauss_newton(const WallMap& map, const Pose2& start, dou
   refined.covariance = solver.inverse();
   refined.noise_covariance = refined.covariance;
   if (!sums.of_offsets.isZero(0)) {
-    solver.compute(sums.information + sums.of_offsets);
+    solver.compute(sums.information_of_parallel() + sums.of_offsets);
     refined.noise_covariance = solver.inverse();
   }
   // To the pose that fits the points best.
   const Eigen::Vector3d move =
-      refined.noise_covariance * (sums.gradient + sums.gradient_of_offsets);
+      refined.noise_covariance * (sums.gradient_of_parallel() + sums.gradient_of_offsets);
   if (walls == nullptr && map_sigma_m > 0) {
     const Covariance3 noise = refined.covariance;
     refined.covariance += noise * variance_of_lines(residuals_, map, map_sigma_m) * noise;
   }
-  for (FaceResidual& face : residuals_) face.distance -= face.gradient().dot(move);
+  for (FaceResidual& face : residuals_) face.move_pose(-move);
   refined.covariance += refined.excess_covariance();
   refined.inliers = sums.inliers;
   const Eigen::Matrix2d& normals = sums.normals;

@@ -15,6 +15,8 @@
 
 namespace cornerd::core {
 
+struct NormalEquations;
+
 struct RefinedPose {
   /// What noise beyond the model adds to `covariance`.
   Covariance3 excess_covariance() const {
@@ -38,6 +40,9 @@ struct RefinedPose {
   double reduced_chi_square = 0;  ///< of the inliers; 1 where the model is right
   double spread = 0;              ///< the same by the sensor's noise, of walls that seem uneven too
   double map_sigma_m = 0;         ///< of the faces' offsets, by what the scan shows of them
+  double direction_share = 0;     ///< shown_direction_share(), where offsets were estimated
+  /// Walls are turned by a tenth of what their ends may be off, at least.
+  bool shows_directions() const { return direction_share > 0.01; }
   FaceResidualStatistics face_residuals;
   bool valid = false;  ///< false: the points do not determine the pose
 };
@@ -75,6 +80,13 @@ class Refinement {
                      double noise_scale, double map_sigma_m = 0, const PosePrior* prior = nullptr,
                      WallOffsetFilter* walls = nullptr);
 
+  /// The same from a pose that was refined as if walls were off as a whole, where that shows that
+  /// they are turned: each face's direction is marginalised besides. A place is judged by the pose
+  /// before, at which walls fit better than they should.
+  RefinedPose refine_directions(const WallMap& map, const RefinedPose& parallel,
+                                std::span<const PolarPoint> points, double noise_scale,
+                                double map_sigma_m);
+
   /// The same on few points, near to the start, with only the steps that a rejection test needs.
   RefinedPose refine_roughly(const WallMap& map, const Pose2& start, double search_radius_m,
                              std::span<const PolarPoint> subset, double noise_scale,
@@ -98,7 +110,6 @@ class Refinement {
   /// So many give NEES within 0.1 of what 800 give in drives that start and stop, at a third of
   /// the cost.
   static constexpr std::size_t kFewPoints = 96;
-  struct Step;
   /// `max_final_steps`: limit of the steps on all `points`.
   RefinedPose gauss_newton(const WallMap& map, const Pose2& start, double search_radius_m,
                            std::span<const PolarPoint> subset, std::span<const PolarPoint> points,
@@ -108,8 +119,8 @@ class Refinement {
   void find_hits(const WallMap& map, const Pose2& T_map_lidar, std::span<const PolarPoint> points,
                  double noise_scale, double extra_sigma_m);
   /// Normal equations of the last hits.
-  Step step(const WallMap& map, const Pose2& T_map_lidar, double extra_sigma_m, double map_sigma_m,
-            WallOffsetFilter* walls);
+  NormalEquations step(const WallMap& map, const Pose2& T_map_lidar, double extra_sigma_m,
+                       double map_sigma_m, WallOffsetFilter* walls);
 
   SensorNoise noise_;
   RayCaster ray_caster_;
@@ -118,6 +129,7 @@ class Refinement {
   std::span<const PredictedHit> hits_;
   std::vector<FaceResidual> residuals_;  ///< of the last step, or refine()
   double uneven_share_ = 1;              ///< of walls, of what they are off
+  double direction_share_ = 0;           ///< of walls, of their directions' variance
   std::vector<PolarPoint> few_;          ///< of error_per_velocity()
   Pose2 T_map_hits_;                     ///< where `hits_` were cast from
 };

@@ -55,7 +55,8 @@ World make_world(const EmulateOptions& options, const settings::Config& config) 
     if (!options.truth.empty()) throw UsageError("--truth: not available for a recording");
     if (options.odometry.enabled) throw UsageError("--odometry: not available for a recording");
     if (options.simulation.changes_map()) {
-      throw UsageError("--map-error and --clutter: not available for a recording; give --map");
+      throw UsageError(
+          "--map-error, --end-error, --clutter: not available for a recording; give --map");
     }
     const replay::RecordingOptions how{parse_wire(options.wire), config.lidar.mount.inverted};
     return {std::make_unique<replay::RecordedScene>(options.recording, how), {}};

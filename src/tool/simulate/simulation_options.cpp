@@ -25,6 +25,7 @@ namespace {
 constexpr double kClearanceM = 0.15;
 
 constexpr std::uint64_t kMapErrorSeed = 0x8BB84B93962EACC9u;
+constexpr std::uint64_t kEndErrorSeed = 0x4B33A62ED433D4A3u;
 constexpr std::uint64_t kClutterSeed = 0x2D358DCCAA6C78A5u;
 
 void warn_unless_indoors(const core::WallMap& map, const core::Vec2& point) {
@@ -84,6 +85,12 @@ void SimulationOptions::add_to(Command& command) {
       .within(0, 0.5)
       .type_name("SIGMA_M");
   command
+      .add_option("--end-error", end_error_m,
+                  "standard deviation of the displacement of each wall's ends in x and in y (m), "
+                  "which turns walls; ends that meet stay together")
+      .within(0, 0.5)
+      .type_name("SIGMA_M");
+  command
       .add_option("--clutter", clutter,
                   "share of the rays along the path that stop at unmapped obstacles: posts, legs "
                   "of furniture, boxes, closed doors; none within 0.25 m of the path")
@@ -125,8 +132,9 @@ SimulatedPlace SimulationOptions::place(std::shared_ptr<const core::WallMap> map
                                         const settings::LidarConfig& lidar) const {
   SimulatedPlace place{std::move(map), {}};
   core::FloorPlan plan = place.world->plan();
-  if (map_error_m > 0) {
-    plan = replay::with_map_error(plan, map_error_m, seed ^ kMapErrorSeed);
+  if (map_error_m > 0) plan = replay::with_map_error(plan, map_error_m, seed ^ kMapErrorSeed);
+  if (end_error_m > 0) plan = replay::with_end_error(plan, end_error_m, seed ^ kEndErrorSeed);
+  if (map_error_m > 0 || end_error_m > 0) {
     place.world = std::make_shared<const core::WallMap>(plan);
   }
   place.motion = motion(*place.world);

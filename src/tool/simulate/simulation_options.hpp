@@ -66,6 +66,7 @@ struct SimulationOptions {
   double yaw_acceleration_rad_s2 = 0;
   std::optional<double> motor_hz;  ///< scan rate; default: the lidar's
   double map_error_m = 0;          ///< standard deviation of a wall's displacement from the map
+  double end_error_m = 0;          ///< the same of a wall's ends, in x and in y
   double clutter = 0;              ///< share of the rays that stop at unmapped obstacles
   SensorOptions sensor;
   std::uint64_t seed = 1;
@@ -77,7 +78,7 @@ struct SimulationOptions {
   bool stands_still() const { return !pose.empty(); }
   /// Scans of a recording without --scans.
   std::int64_t default_scans() const;
-  bool changes_map() const { return map_error_m > 0 || clutter > 0; }
+  bool changes_map() const { return map_error_m > 0 || end_error_m > 0 || clutter > 0; }
   /// The same for every length of a recording. Throws UsageError unless exactly one of pose,
   /// places, path and scenario is given, std::runtime_error if the clutter or a place has no room.
   /// Warns on standard error about points inside walls or outside the building.

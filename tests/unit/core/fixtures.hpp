@@ -45,10 +45,11 @@ class ScanSource {
 
   Scan take(const WallMap& map, const Pose2& T_map_lidar, const ScanOptions& options = {});
   Pose2 place_in(double low_x_m, double high_x_m, double low_y_m, double high_y_m);
+  /// Of N(0, 1).
+  double normal();
 
  private:
   double uniform(double low, double high);
-  double normal();
   std::mt19937_64 random_;
 };
 

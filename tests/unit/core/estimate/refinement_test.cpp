@@ -59,6 +59,49 @@ TEST_F(RefinementTest, DisplacedWalls_OffsetsAreMarginalised) {
   EXPECT_GT(error_of(0), error_of(kOff_m));
 }
 
+TEST_F(RefinementTest, TurnedWalls_DirectionsAreMarginalised) {
+  constexpr double kOff_m = 0.01;
+  constexpr int kBuildings = 60;
+  double nees_parallel = 0;
+  double nees = 0;
+  double error_parallel_rad = 0;
+  double error_rad = 0;
+  for (int seed = 1; seed <= kBuildings; ++seed) {
+    FloorPlan plan = testing::l_shaped_room();
+    for (Wall& wall : plan.walls) {
+      for (Vec2* end : {&wall.from, &wall.to}) {
+        *end += kOff_m * Vec2(source_.normal(), source_.normal());
+      }
+    }
+    const auto building = testing::make_map(plan);
+    const Pose2 T_map_lidar = source_.place_in(0.5, 2.2, 0.4, 1.5);
+    const PolarScan points = testing::polar(source_.take(*building, T_map_lidar));
+    const RefinedPose parallel =
+        refinement_.refine(*map_, T_map_lidar, 0.05, points.points(), points.points(), 1, kOff_m);
+    ASSERT_TRUE(parallel.valid);
+    const RefinedPose turned =
+        parallel.shows_directions()
+            ? refinement_.refine_directions(*map_, parallel, points.points(), 1, kOff_m)
+            : parallel;
+    ASSERT_TRUE(turned.valid);
+    const auto error_of = [&](const RefinedPose& refined) -> Eigen::Vector3d {
+      return {refined.T_map_lidar.x_m - T_map_lidar.x_m, refined.T_map_lidar.y_m - T_map_lidar.y_m,
+              angle_between(T_map_lidar.theta_rad, refined.T_map_lidar.theta_rad)};
+    };
+    const auto nees_of = [&](const RefinedPose& refined) {
+      const Eigen::Vector3d error = error_of(refined);
+      return error.dot(refined.covariance.inverse() * error);
+    };
+    nees_parallel += nees_of(parallel) / kBuildings;
+    nees += nees_of(turned) / kBuildings;
+    error_parallel_rad += std::abs(error_of(parallel).z()) / kBuildings;
+    error_rad += std::abs(error_of(turned).z()) / kBuildings;
+  }
+  EXPECT_LT(nees, 5);
+  EXPECT_GT(nees_parallel, 5);
+  EXPECT_LT(error_rad, error_parallel_rad);
+}
+
 TEST_F(RefinementTest, WallsOff_HowFarIsEstimated_AndTheHeadingIsOfTheirDirections) {
   constexpr int kBuildings = 40;
   for (const double sigma_m : {0.005, 0.03}) {

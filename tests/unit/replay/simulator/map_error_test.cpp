@@ -63,5 +63,24 @@ TEST(MapError, NegativeSigma_IsRefused) {
   EXPECT_THROW(with_map_error(make_room()->plan(), std::nan(""), 1), std::invalid_argument);
 }
 
+TEST(MapError, EndsOff_TurnWallsAndKeepThemTogether) {
+  constexpr double kSigma_m = 0.04;
+  const core::FloorPlan plan = make_room()->plan();
+  double sum_of_squares = 0;
+  for (std::uint64_t seed = 0; seed < 250; ++seed) {
+    const core::FloorPlan changed = with_end_error(plan, kSigma_m, seed);
+    for (int i = 0; i < 4; ++i) {
+      EXPECT_EQ(changed.walls[i].to, changed.walls[(i + 1) % 4].from);
+      sum_of_squares +=
+          (changed.walls[i].to - plan.walls[i].to).squaredNorm() / (kSigma_m * kSigma_m);
+    }
+  }
+  // 99.9 %, two-sided: chi-square of 2000 degrees of freedom.
+  EXPECT_GT(sum_of_squares, 1799);
+  EXPECT_LT(sum_of_squares, 2216);
+  EXPECT_EQ(with_end_error(plan, 0, 1).walls[0].from, plan.walls[0].from);
+  EXPECT_THROW(with_end_error(plan, -0.1, 1), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace cornerd::replay

@@ -40,7 +40,7 @@ TEST_F(SimulationOptionsTest, InvalidNumber_IsWrongUsage) {
   for (const char* option :
        {"--sigma-floor", "--sigma-share", "--bearing-noise", "--missing", "--missing-run",
         "--outliers", "--beam", "--backward", "--motor", "--drive-speed", "--rotation-speed",
-        "--map-error", "--clutter", "--fov"}) {
+        "--map-error", "--end-error", "--clutter", "--fov"}) {
     for (const char* value : {"nan", "inf", "-inf", "-1", "much", ""}) {
       const CommandRun run = simulate({std::string(option) + "=" + value});
       EXPECT_EQ(run.exit_code, kExitUsage) << option << ' ' << value;
@@ -48,7 +48,8 @@ TEST_F(SimulationOptionsTest, InvalidNumber_IsWrongUsage) {
       EXPECT_FALSE(std::filesystem::exists(path("x.bin")));
     }
   }
-  for (const char* word : {"--map-error=0.6", "--clutter=0.7", "--fov=19", "--fov=361"}) {
+  for (const char* word :
+       {"--map-error=0.6", "--end-error=0.6", "--clutter=0.7", "--fov=19", "--fov=361"}) {
     EXPECT_EQ(simulate({word}).exit_code, kExitUsage) << word;
   }
   for (const char* option : {"--scans", "--scans-each", "--seed"}) {
@@ -121,11 +122,16 @@ TEST_F(SimulationOptionsTest, PlaceWithMapErrorAndClutter_IsTheSameForTheSeed) {
   EXPECT_THAT(text, testing::ContainsRegex(", 3[0-9] % of them with a return"));
   EXPECT_EQ(record("b.bin", all).second, bytes);
   const std::string plain = record("c.bin", {}).second;
-  for (const auto& one :
-       {std::vector<std::string>{"--map-error", "0.03"}, {"--clutter", "0.3"}, {"--fov", "120"}}) {
+  for (const auto& one : {std::vector<std::string>{"--map-error", "0.03"},
+                          {"--end-error", "0.03"},
+                          {"--clutter", "0.3"},
+                          {"--fov", "120"}}) {
     EXPECT_NE(record("d.bin", one).second, plain) << one[0];
   }
-  EXPECT_EQ(record("e.bin", {"--map-error", "0", "--clutter", "0", "--fov", "360"}).second, plain);
+  EXPECT_EQ(
+      record("e.bin", {"--map-error", "0", "--end-error", "0", "--clutter", "0", "--fov", "360"})
+          .second,
+      plain);
 }
 
 TEST_F(SimulationOptionsTest, ClutterWithoutRoom_FailsWithTheShareReached) {
