@@ -50,7 +50,7 @@ double sigma_of_offsets(std::span<const FaceResidual> residuals, const WallMap& 
 
 double shown_direction_share(std::span<const FaceResidual> residuals, double sigma_m,
                              const Eigen::Matrix3d& information, const Eigen::Vector3d& gradient) {
-  constexpr std::array kShares{0.0, 0.25, 1.0};
+  constexpr std::array kShares{0.0, 1 / 64.0, 1 / 16.0, 1 / 4.0, 1.0};
   // Of the heading, the place marginalised: what directions take is of the heading alone.
   const Eigen::Vector2d cross = information.topRightCorner<2, 1>();
   const Eigen::Vector2d by_place =

@@ -76,18 +76,24 @@ TEST(FaceOffsets, ShownDirectionShare_IsThatOfTheWalls) {
   constexpr double kSigma_m = 0.01;
   constexpr int kScans = 200;
   const double by_ends_rad = std::sqrt(direction_variance(2, kSigma_m));
-  double parallel = 0;
-  double half = 0;
-  double turned = 0;
-  for (std::uint64_t seed = 1; seed <= kScans; ++seed) {
-    parallel += TurnedWalls(0, seed).share(kSigma_m) / kScans;
-    half += TurnedWalls(by_ends_rad / 2, seed).share(kSigma_m) / kScans;
-    turned += TurnedWalls(by_ends_rad, seed).share(kSigma_m) / kScans;
+  double before = -1;
+  double sum = 0;
+  double sum_of_shown = 0;
+  for (const double share : {0.0, 1 / 64.0, 1 / 16.0, 1 / 4.0, 1.0}) {
+    double shown = 0;
+    for (std::uint64_t seed = 1; seed <= kScans; ++seed) {
+      shown += TurnedWalls(std::sqrt(share) * by_ends_rad, seed).share(kSigma_m) / kScans;
+    }
+    EXPECT_GT(shown, before) << share;
+    before = shown;
+    sum += share;
+    sum_of_shown += shown;
+    if (share == 0) {
+      EXPECT_LT(shown, 1 / 64.0);  // less than the least that is told from it
+    }
   }
-  EXPECT_LT(parallel, 0.01);
-  EXPECT_GT(turned, half);
   // Over all that the prior allows, the mean of a posterior mean is that of the prior.
-  EXPECT_NEAR(parallel + half + turned, 1.25, 0.1);
+  EXPECT_NEAR(sum_of_shown, sum, 0.1);
 }
 
 }  // namespace
