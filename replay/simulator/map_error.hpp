@@ -21,7 +21,7 @@ core::FloorPlan with_walls_moved(const core::FloorPlan& plan, std::span<const do
 core::FloorPlan with_map_error(const core::FloorPlan& plan, double sigma_m, std::uint64_t seed);
 
 /// Each end of a wall moved by N(0, sigma_m) in x and in y, so that walls are turned; ends at the
-/// same point stay together. Throws as with_map_error().
+/// same point stay together, one at another wall's side is left behind. Throws as with_map_error().
 core::FloorPlan with_end_error(const core::FloorPlan& plan, double sigma_m, std::uint64_t seed);
 
 }  // namespace cornerd::replay

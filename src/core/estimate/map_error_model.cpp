@@ -43,9 +43,9 @@ double log_likelihood(std::span<const FaceResidual> residuals, const Eigen::Matr
     gradient += share * distance * face.gradient();
     chi_square -= share * squared(distance);
     log_determinant += std::log1p(variance_m2 * face.weight);
-    if (!by_ends) continue;
-    const double variance = face.direction_variance(std::sqrt(variance_m2));
     const double direction_weight = face.direction_weight();
+    if (!by_ends || !(direction_weight > 0)) continue;
+    const double variance = face.direction_variance(std::sqrt(variance_m2));
     const double direction_rad = face.direction_rad(variance) / kShiftShare;
     reduced(2, 2) -= squared(direction_weight) / (direction_weight + 1 / variance);
     gradient.z() += direction_rad * direction_weight;

@@ -63,13 +63,14 @@ void PointLanes::assign(std::span<const PolarPoint> points, const SensorNoise& n
 }
 
 FaceSums PointLanes::sum(std::size_t begin, std::size_t end, const Vec2& normal, double height_m,
-                         double extra_sigma_m, double face_sigma_m) const {
+                         double extra_sigma_m, double face_sigma_m, double angle_rad) const {
   constexpr auto kPerCut = static_cast<float>(1 / (kCutSigmas * kCutSigmas));
   // Turns any positive share into 1.
   constexpr float kHuge = 1e30F;
   const auto nx = static_cast<float>(normal.x());
   const auto ny = static_cast<float>(normal.y());
   const auto height = static_cast<float>(height_m);
+  const auto angle = static_cast<float>(angle_rad);
   const auto extra_variance = static_cast<float>(extra_sigma_m * extra_sigma_m) + kMinVariance;
   const auto face_variance = static_cast<float>(face_sigma_m * face_sigma_m);
   Lanes weights = Lanes::Zero();
@@ -84,8 +85,8 @@ FaceSums PointLanes::sum(std::size_t begin, std::size_t end, const Vec2& normal,
     const Lanes x = lanes(x_m_, i);
     const Lanes y = lanes(y_m_, i);
     const Lanes towards_m = nx * x + ny * y;
-    const Lanes distance_m = towards_m + height;
     const Lanes lever_m = ny * x - nx * y;
+    const Lanes distance_m = towards_m + height - angle * lever_m;
     const Lanes sine = towards_m * lanes(inverse_range_, i);
     const Lanes variance =
         lanes(along_variance_, i) * sine * sine + lanes(across_variance_, i) + extra_variance;

@@ -47,9 +47,10 @@ class PointLanes {
   /// Sums over the points [begin, end), which all hit one face. `normal`: of the face; `height_m`:
   /// distance of the lidar in front of it, lidar frame. Weights are Tukey's biweight over the
   /// variance. `extra_sigma_m` is added to each point's noise (graduated non-convexity);
-  /// `face_sigma_m`, of the face's own offset, widens the cut alone.
+  /// `face_sigma_m`, of the face's own offset, widens the cut alone. Distances are less by
+  /// `angle_rad` a lever: those to a plane that is turned to the left about the lidar's foot.
   FaceSums sum(std::size_t begin, std::size_t end, const Vec2& normal, double height_m,
-               double extra_sigma_m, double face_sigma_m = 0) const;
+               double extra_sigma_m, double face_sigma_m = 0, double angle_rad = 0) const;
 
  private:
   std::vector<float> x_m_;

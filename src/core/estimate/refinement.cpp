@@ -93,9 +93,8 @@ NormalEquations Refinement::step(const WallMap& map, const Pose2& T_map_lidar, d
       const double lever_m = sum.mean_lever_m();
       const double angle_rad =
           sum.direction_rad(direction_share_ * direction_variance(face.length_m, face_sigma_m));
-      const Vec2 turned = normal - angle_rad * Vec2(normal.y(), -normal.x());
-      sum = lanes_.sum(begin, end, turned, height_m - offset_m + angle_rad * lever_m,
-                       uneven_share_ * face_sigma_m);
+      sum = lanes_.sum(begin, end, normal, height_m - offset_m + angle_rad * lever_m,
+                       uneven_share_ * face_sigma_m, 0, angle_rad);
       sums.uneven_points += sum.points;
       sums.uneven_square += sum.z_squared;
       sums.uneven_weight += sum.weight * squared(face_sigma_m);

@@ -41,7 +41,8 @@ struct RefinedPose {
   double spread = 0;              ///< the same by the sensor's noise, of walls that seem uneven too
   double map_sigma_m = 0;         ///< of the faces' offsets, by what the scan shows of them
   double direction_share = 0;     ///< shown_direction_share(), where offsets were estimated
-  /// Walls are turned by a tenth of what their ends may be off, at least.
+  /// The scan does not show that walls are parallel: they may be turned by a tenth of what their
+  /// ends may be off.
   bool shows_directions() const { return direction_share > 0.01; }
   FaceResidualStatistics face_residuals;
   bool valid = false;  ///< false: the points do not determine the pose
@@ -80,9 +81,9 @@ class Refinement {
                      double noise_scale, double map_sigma_m = 0, const PosePrior* prior = nullptr,
                      WallOffsetFilter* walls = nullptr);
 
-  /// The same from a pose that was refined as if walls were off as a whole, where that shows that
-  /// they are turned: each face's direction is marginalised besides. A place is judged by the pose
-  /// before, at which walls fit better than they should.
+  /// The same from a pose that was refined as if walls were off as a whole: each face's direction
+  /// is marginalised besides. A place is judged by the pose before, at which walls fit better than
+  /// they should.
   RefinedPose refine_directions(const WallMap& map, const RefinedPose& parallel,
                                 std::span<const PolarPoint> points, double noise_scale,
                                 double map_sigma_m);

@@ -105,5 +105,26 @@ TEST(PointLanes, NoiselessPointsOnWall_WeightIsFinite) {
   EXPECT_GT(sum.weight, 0);
 }
 
+TEST(PointLanes, TurnedPlane_MovedBackIsTheFaceAgain) {
+  // So wide that all weights are alike.
+  constexpr double kExtra_m = 30;
+  constexpr double kAngle_rad = 0.4;
+  const PolarScan scan = noisy_wall();
+  PointLanes lanes;
+  lanes.assign(scan.points(), SensorNoise{}, kScale);
+  const Vec2 normal = unit_vector(kWallAngle_rad);
+  const FaceSums face = lanes.sum(0, kWallPoints, normal, kHeight_m, kExtra_m);
+  FaceSums turned = lanes.sum(0, kWallPoints, normal, kHeight_m - 0.2 + kAngle_rad * 0.3, kExtra_m,
+                              0, kAngle_rad);
+  EXPECT_NEAR(turned.lever, face.lever, 0.01 * face.weight);
+  EXPECT_NEAR(turned.distance,
+              face.distance - 0.2 * face.weight - kAngle_rad * (face.lever - 0.3 * face.weight),
+              0.01 * face.weight);
+  turned.move(0.2, kAngle_rad, 0.3);
+  EXPECT_NEAR(turned.distance, face.distance, 0.01 * face.weight);
+  EXPECT_NEAR(turned.distance_lever, face.distance_lever, 0.01 * face.weight);
+  EXPECT_NEAR(turned.z_squared, face.z_squared, 0.01 * face.weight);
+}
+
 }  // namespace
 }  // namespace cornerd::core
