@@ -93,9 +93,20 @@ RefinedPose Localizer::Workspace::with_directions(const RefinedPose& parallel,
   if (!parallel.shows_directions()) return parallel;
   const RefinedPose refined = place->refinement.refine_directions(
       *map, parallel, points.points(), noise_scale(), map_sigma_m(found));
-  const bool is_near = refined.valid && same_pose(refined.T_map_lidar, parallel.T_map_lidar,
-                                                  kMaxMove_m, kMaxMove_rad);
-  return is_near ? refined : parallel;
+  if (!refined.valid ||
+      !same_pose(refined.T_map_lidar, parallel.T_map_lidar, kMaxMove_m, kMaxMove_rad)) {
+    return parallel;
+  }
+  if (odometer.has_motion()) return refined;
+  // A motion that nobody measured makes walls look turned: the pose stays, and its covariance holds
+  // both.
+  const Eigen::Vector3d apart(
+      refined.T_map_lidar.x_m - parallel.T_map_lidar.x_m,
+      refined.T_map_lidar.y_m - parallel.T_map_lidar.y_m,
+      angle_between(parallel.T_map_lidar.theta_rad, refined.T_map_lidar.theta_rad));
+  RefinedPose either = parallel;
+  either.covariance = refined.covariance + apart * apart.transpose();
+  return either;
 }
 
 void Localizer::Workspace::teach_walls(const RefinedPose& refined,
