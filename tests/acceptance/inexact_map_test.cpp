@@ -38,6 +38,15 @@ core::FloorPlan moved(core::FloorPlan plan, double sigma_m, std::uint64_t seed) 
   return plan;
 }
 
+/// Ten scans at each.
+auto localize_ten_places(const std::shared_ptr<const core::WallMap>& building,
+                         const std::shared_ptr<const core::WallMap>& map, std::uint64_t seed) {
+  replay::SimulatedRecordingConfig config;
+  config.simulator.seed = seed;
+  config.scans = 100;
+  return localize_random_places(building, map, config, /*scans_each=*/10);
+}
+
 TEST(InexactMap, DisplacedWalls_CovarianceIsConsistent) {
   const auto map =
       settings::load_map(std::filesystem::path(CORNERD_SOURCE_DIR) / "config/maps/flat-7.json");
@@ -49,10 +58,7 @@ TEST(InexactMap, DisplacedWalls_CovarianceIsConsistent) {
     for (std::uint64_t seed = 1; seed <= kBuildings; ++seed) {
       const auto building =
           std::make_shared<const core::WallMap>(moved(map->plan(), sigma_m, seed));
-      replay::SimulatedRecordingConfig config;
-      config.simulator.seed = seed;
-      config.scans = 100;
-      const auto statistics = localize_random_places(building, map, config, /*scans_each=*/10);
+      const auto statistics = localize_ten_places(building, map, seed);
       SCOPED_TRACE(statistics.report());
       EXPECT_EQ(statistics.wrong(), 0U);
       EXPECT_GE(statistics.count(core::PoseState::kFix), 83U);
@@ -76,10 +82,7 @@ TEST(InexactMap, EndsOfWallsOffByACentimetre_CovarianceIsConsistent) {
     for (std::uint64_t seed = 1; seed <= kBuildings; ++seed) {
       const auto building =
           std::make_shared<const core::WallMap>(replay::with_end_error(map->plan(), 0.01, seed));
-      replay::SimulatedRecordingConfig config;
-      config.simulator.seed = seed;
-      config.scans = 100;
-      const auto statistics = localize_random_places(building, map, config, /*scans_each=*/10);
+      const auto statistics = localize_ten_places(building, map, seed);
       SCOPED_TRACE(statistics.report());
       EXPECT_EQ(statistics.wrong(), 0U);
       nees += statistics.mean_nees() / kBuildings;
