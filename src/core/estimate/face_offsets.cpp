@@ -48,8 +48,9 @@ double sigma_of_offsets(std::span<const FaceResidual> residuals, const WallMap& 
   return std::min(std::sqrt(variance / faces), std::max(kMostOff_m, stated_m));
 }
 
-double shown_direction_share(std::span<const FaceResidual> residuals, double sigma_m,
-                             const Eigen::Matrix3d& information, const Eigen::Vector3d& gradient) {
+double shown_direction_share(std::span<const FaceResidual> residuals, const WallMap& map,
+                             double sigma_m, const Eigen::Matrix3d& information,
+                             const Eigen::Vector3d& gradient) {
   constexpr std::array kShares{0.0, 1 / 64.0, 1 / 16.0, 1 / 4.0, 1.0};
   // Of the heading, the place marginalised: what directions take is of the heading alone.
   const Eigen::Vector2d cross = information.topRightCorner<2, 1>();
@@ -63,14 +64,13 @@ double shown_direction_share(std::span<const FaceResidual> residuals, double sig
     double chi_square = 0;
     double log_determinant = 0;
     for (const FaceResidual& face : residuals) {
-      const double variance = share * face.direction_variance(sigma_m);
-      if (!(variance > 0)) continue;
-      const double weight = face.direction_weight();
-      const double direction_rad = face.direction_rad(variance);
-      reduced_weight -= squared(weight) / (weight + 1 / variance);
-      reduced -= direction_rad * weight;
-      chi_square -= direction_rad * face.direction();
-      log_determinant += std::log1p(variance * weight);
+      const double face_sigma_m = std::max(sigma_m, map.faces()[face.face].sigma_m);
+      const double variance = share * face.direction_variance(face_sigma_m);
+      const LineSums::Eliminated eliminated = face.eliminate_direction(variance);
+      reduced_weight -= eliminated.information;
+      reduced -= eliminated.gradient;
+      chi_square -= eliminated.chi_square;
+      log_determinant += std::log1p(variance * face.direction_weight());
     }
     chi_square -= squared(reduced) / reduced_weight;
     return -(chi_square + log_determinant + std::log(reduced_weight)) / 2;

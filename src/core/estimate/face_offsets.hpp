@@ -16,11 +16,13 @@ double sigma_of_offsets(std::span<const FaceResidual> residuals, const WallMap& 
                         double stated_m, double sigma_m);
 
 /// Walls that are off as a whole keep their direction; where each end is off by itself they are
-/// turned. The share of FaceResidual::direction_variance(sigma_m) that a scan shows: the mean of
-/// its posterior over 0, 1/64, 1/16, 1/4 and 1, each as likely before. `information` and
+/// turned. The share of FaceResidual::direction_variance() of `sigma_m`, or of the face's own where
+/// that is more, that a scan shows: the mean of its posterior over 0, 1/64, 1/16, 1/4 and 1, each
+/// as likely before. `information` and
 /// `gradient`: of the pose's normal equations (x, y, theta), with no direction marginalised.
-double shown_direction_share(std::span<const FaceResidual> residuals, double sigma_m,
-                             const Eigen::Matrix3d& information, const Eigen::Vector3d& gradient);
+double shown_direction_share(std::span<const FaceResidual> residuals, const WallMap& map,
+                             double sigma_m, const Eigen::Matrix3d& information,
+                             const Eigen::Vector3d& gradient);
 
 /// One residual a line: sums those of faces that may be off together.
 void merge_by_line(std::vector<FaceResidual>& residuals, const WallMap& map);

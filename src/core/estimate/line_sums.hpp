@@ -39,6 +39,19 @@ struct LineSums {
   double direction_rad(double variance) const {
     return variance > 0 ? direction() / (direction_weight() + 1 / variance) : 0;
   }
+  /// What the normal equations lose where a direction of N(0, variance) is eliminated, about the
+  /// mean of its points: the Schur complement.
+  struct Eliminated {
+    double information = 0;  ///< of the heading
+    double gradient = 0;     ///< of the same
+    double chi_square = 0;
+  };
+  Eliminated eliminate_direction(double variance) const {
+    const double angle_rad = direction_rad(variance);
+    const double points = direction_weight();
+    const double turned = variance > 0 ? points / (points + 1 / variance) : 0;
+    return {turned * points, angle_rad * points, angle_rad * direction()};
+  }
 
   double weight = 0;
   double lever = 0;

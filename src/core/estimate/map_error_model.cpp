@@ -43,14 +43,13 @@ double log_likelihood(std::span<const FaceResidual> residuals, const Eigen::Matr
     gradient += share * distance * face.gradient();
     chi_square -= share * squared(distance);
     log_determinant += std::log1p(variance_m2 * face.weight);
-    const double direction_weight = face.direction_weight();
-    if (!by_ends || !(direction_weight > 0)) continue;
+    if (!by_ends) continue;
     const double variance = face.direction_variance(std::sqrt(variance_m2));
-    const double direction_rad = face.direction_rad(variance) / kShiftShare;
-    reduced(2, 2) -= squared(direction_weight) / (direction_weight + 1 / variance);
-    gradient.z() += direction_rad * direction_weight;
-    chi_square -= direction_rad * face.direction() / kShiftShare;
-    log_determinant += std::log1p(variance * direction_weight);
+    const LineSums::Eliminated eliminated = face.eliminate_direction(variance);
+    reduced(2, 2) -= eliminated.information;
+    gradient.z() += eliminated.gradient / kShiftShare;
+    chi_square -= eliminated.chi_square / squared(kShiftShare);
+    log_determinant += std::log1p(variance * face.direction_weight());
   }
   const SymmetricSolver<3> solver(reduced);
   const double ratio = solver.pivots().prod() / SymmetricSolver<3>(information).pivots().prod();

@@ -51,14 +51,11 @@ struct NormalEquations {
     return gradient + heading_of_directions * Eigen::Vector3d::UnitZ();
   }
 
-  /// Eliminates the direction of a face, about the mean of its points.
   void marginalise_direction(const FaceResidual& face, double variance) {
-    if (!(variance > 0)) return;
-    const double direction_rad = face.direction_rad(variance);
-    const double weight = face.direction_weight();
-    of_directions += squared(weight) / (weight + 1 / variance);
-    heading_of_directions += direction_rad * weight;
-    chi_square -= direction_rad * face.direction();
+    const LineSums::Eliminated eliminated = face.eliminate_direction(variance);
+    of_directions += eliminated.information;
+    heading_of_directions += eliminated.gradient;
+    chi_square -= eliminated.chi_square;
   }
 
   /// Eliminates the offset of a face: the Schur complement, of rank one.

@@ -196,7 +196,7 @@ RefinedPose Refinement::gauss_newton(const WallMap& map, const Pose2& start, dou
   uneven_share_ = 1;
   points_ = {};
   const auto shown_by = [&](const NormalEquations& of) {
-    return shown_direction_share(residuals_, map_sigma_m, of.information_of_parallel(),
+    return shown_direction_share(residuals_, map, map_sigma_m, of.information_of_parallel(),
                                  of.gradient_of_parallel());
   };
   for (int k = 0; k < kMaxSteps; ++k) {

@@ -43,7 +43,8 @@ struct RefinedPose {
   double direction_share = 0;     ///< shown_direction_share(), where offsets were estimated
   /// The scan does not show that walls are parallel: they may be turned by a tenth of what their
   /// ends may be off.
-  bool shows_directions() const { return direction_share > 0.01; }
+  bool shows_directions() const { return direction_share > kLeastDirectionShare; }
+  static constexpr double kLeastDirectionShare = 0.1 * 0.1;
   FaceResidualStatistics face_residuals;
   bool valid = false;  ///< false: the points do not determine the pose
 };

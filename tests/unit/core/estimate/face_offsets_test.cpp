@@ -64,9 +64,10 @@ struct TurnedWalls {
     }
   }
   double share(double sigma_m) const {
-    return shown_direction_share(residuals, sigma_m, information, gradient);
+    return shown_direction_share(residuals, *map, sigma_m, information, gradient);
   }
 
+  std::shared_ptr<const WallMap> map = testing::make_map(testing::two_equal_rooms());
   std::vector<FaceResidual> residuals;
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
