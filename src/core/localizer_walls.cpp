@@ -89,10 +89,11 @@ RefinedPose Localizer::Workspace::refine_by(WallOffsetFilter* walls,
 }
 
 RefinedPose Localizer::Workspace::with_directions(const RefinedPose& parallel,
-                                                  const VerifiedHypothesis& found) {
+                                                  const VerifiedHypothesis& found,
+                                                  WallOffsetFilter* walls) {
   if (!parallel.shows_directions()) return parallel;
   const RefinedPose refined = place->refinement.refine_directions(
-      *map, parallel, points.points(), noise_scale(), map_sigma_m(found));
+      *map, parallel, points.points(), noise_scale(), map_sigma_m(found), walls);
   if (!refined.valid ||
       !same_pose(refined.T_map_lidar, parallel.T_map_lidar, kMaxMove_m, kMaxMove_rad)) {
     return parallel;
@@ -142,6 +143,8 @@ RefinedPose Localizer::Workspace::refined_by_walls(const VerifiedHypothesis& fou
   if (!place->walls) return by_map();
   RefinedPose refined = refine_by(&*place->walls, found);
   if (!refined.valid) return by_map();
+  // A motion that nobody measured turns walls: nothing is learned of that.
+  if (odometer.has_motion()) refined = with_directions(refined, found, &*place->walls);
   const bool is_learned = place->walls->size() > 0;
   if (is_certain(refined)) {
     if (is_explained(refined)) {
@@ -152,7 +155,7 @@ RefinedPose Localizer::Workspace::refined_by_walls(const VerifiedHypothesis& fou
   // Ends of walls tell something of a pose too, though nothing of the walls.
   if (!is_learned) return by_map();
   refined.face_residuals = found.refined.face_residuals;
-  return refined;
+  return odometer.has_motion() ? refined : with_directions(refined, found, &*place->walls);
 }
 
 }  // namespace cornerd::core

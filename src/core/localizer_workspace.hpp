@@ -126,7 +126,8 @@ struct Localizer::Workspace {
   void try_bias(const Scan& scan, const Decision& decision, TimeNs t_ns);
   bool is_certain(const RefinedPose& refined) const;
   RefinedPose refine_by(WallOffsetFilter* walls, const VerifiedHypothesis& found);
-  RefinedPose with_directions(const RefinedPose& parallel, const VerifiedHypothesis& found);
+  RefinedPose with_directions(const RefinedPose& parallel, const VerifiedHypothesis& found,
+                              WallOffsetFilter* walls = nullptr);
   void teach_walls(const RefinedPose& refined, const VerifiedHypothesis& found);
   bool is_map_inexact() const;
   /// More than walls, to tell how the robot moves.

@@ -71,7 +71,7 @@ NormalEquations Refinement::step(const WallMap& map, const Pose2& T_map_lidar, d
   NormalEquations sums;
   sums.uneven_share = uneven_share_;
   residuals_.clear();
-  if (walls != nullptr) walls->begin();
+  if (walls != nullptr) walls->begin(direction_share_);
   // Neighbouring rays mostly hit the same face: each run is summed at once.
   for (std::size_t begin = 0, end = 0; begin < hits_.size(); begin = end) {
     const std::uint32_t met = hits_[begin].face;
@@ -121,14 +121,13 @@ NormalEquations Refinement::step(const WallMap& map, const Pose2& T_map_lidar, d
   }
   // Stretches of uneven walls are off, each by itself.
   if (!map.plan().is_inexact()) merge_by_face(residuals_);
-  if (walls == nullptr) {
-    for (const FaceResidual& face : residuals_) {
-      const double face_sigma_m = std::max(map_sigma_m, map.faces()[face.face].sigma_m);
-      if (!(face_sigma_m > 0 && face.weight > 0)) continue;
-      sums.marginalise(face, face_sigma_m);
-      sums.marginalise_direction(face, direction_share_ * face.direction_variance(face_sigma_m));
-    }
-  } else {
+  for (const FaceResidual& face : residuals_) {
+    const double face_sigma_m = std::max(map_sigma_m, map.faces()[face.face].sigma_m);
+    if (!(face_sigma_m > 0 && face.weight > 0)) continue;
+    if (walls == nullptr) sums.marginalise(face, face_sigma_m);
+    sums.marginalise_direction(face, direction_share_ * face.direction_variance(face_sigma_m));
+  }
+  if (walls != nullptr) {
     const WallOffsetFilter::Reduced reduced = walls->marginalise();
     sums.of_offsets += reduced.information;
     sums.gradient -= reduced.gradient;
@@ -163,11 +162,11 @@ RefinedPose Refinement::refine(const WallMap& map, const Pose2& start, double se
 
 RefinedPose Refinement::refine_directions(const WallMap& map, const RefinedPose& parallel,
                                           std::span<const PolarPoint> points, double noise_scale,
-                                          double map_sigma_m) {
+                                          double map_sigma_m, WallOffsetFilter* walls) {
   direction_share_ = parallel.direction_share;
   const PosePrior prior = PosePrior::near_to(parallel.T_map_lidar);
   RefinedPose refined = gauss_newton(map, parallel.T_map_lidar, 0, points, points, noise_scale,
-                                     map_sigma_m, kMaxSteps, &prior, nullptr);
+                                     map_sigma_m, kMaxSteps, &prior, walls);
   refined.face_residuals = parallel.face_residuals;
   return refined;
 }
@@ -191,7 +190,8 @@ RefinedPose Refinement::gauss_newton(const WallMap& map, const Pose2& start, dou
   double extra_sigma_m = search_radius_m;
   SymmetricSolver<3> solver;
   NormalEquations sums;
-  const bool shows_sigma = map_sigma_m > 0 && walls == nullptr && !map.plan().is_inexact();
+  const bool shows_directions = map_sigma_m > 0;
+  const bool shows_sigma = shows_directions && walls == nullptr && !map.plan().is_inexact();
   const double stated_m = map_sigma_m;
   uneven_share_ = 1;
   points_ = {};
@@ -225,13 +225,15 @@ RefinedPose Refinement::gauss_newton(const WallMap& map, const Pose2& start, dou
         move.head<2>().norm() < kConverged_m && std::abs(move.z()) < kConverged_rad;
     if (!rough && (converged || --max_final_steps == 0)) break;
     extra_sigma_m *= 0.4;
-    if (rough || !shows_sigma || !(sums.uneven_weight > 0)) continue;
-    map_sigma_m = sigma_of_offsets(residuals_, map, stated_m, map_sigma_m);
-    uneven_share_ = std::clamp(sums.shown_share(), kEvenShare, 1.0);
+    if (rough) continue;
+    if (shows_sigma && sums.uneven_weight > 0) {
+      map_sigma_m = sigma_of_offsets(residuals_, map, stated_m, map_sigma_m);
+      uneven_share_ = std::clamp(sums.shown_share(), kEvenShare, 1.0);
+    }
     if (direction_share_ > 0) direction_share_ = shown_by(sums);
   }
   refined.map_sigma_m = map_sigma_m;
-  if (shows_sigma) refined.direction_share = shown_by(sums);
+  if (shows_directions) refined.direction_share = shown_by(sums);
   const auto inliers = static_cast<double>(sums.inliers);
   refined.reduced_chi_square = sums.chi_square / std::max(1.0, inliers - 3);
   refined.spread = refined.reduced_chi_square;

@@ -87,7 +87,7 @@ class Refinement {
   /// they should.
   RefinedPose refine_directions(const WallMap& map, const RefinedPose& parallel,
                                 std::span<const PolarPoint> points, double noise_scale,
-                                double map_sigma_m);
+                                double map_sigma_m, WallOffsetFilter* walls = nullptr);
 
   /// The same on few points, near to the start, with only the steps that a rejection test needs.
   RefinedPose refine_roughly(const WallMap& map, const Pose2& start, double search_radius_m,

@@ -12,6 +12,9 @@ namespace {
 /// Standard deviation of a wall in one scan about its mean, which no number of points averages out:
 /// a wall is not plane, and a lidar's error changes with range and incidence.
 constexpr double kScanSigma_m = 0.003;
+/// Mean square of a line about its middle over the variance of its ends: of a direction,
+/// 2 (sigma / length)^2, at a place that is uniform over the length, length^2 / 12.
+constexpr double kTurnedShare = 1.0 / 6;
 /// Of the rays on a wall that is there.
 constexpr double kMinShareOfRays = 0.5;
 /// Mean squared innovation of a scan, 1 in the model, beyond which it is of another place.
@@ -57,9 +60,13 @@ double WallOffsetFilter::offset_m(std::uint32_t face) const {
 double WallOffsetFilter::sigma_m(std::uint32_t face) const {
   if (sides_[face].sign == 0) return 0;
   const WallState& state = states_[sides_[face].wall];
-  return std::sqrt(squared(kScanSigma_m) + (state.slot == kNone
-                                                ? state.prior_variance_m2
-                                                : covariance_m2(state.slot, state.slot)));
+  return std::sqrt(scan_variance_m2(state) + (state.slot == kNone
+                                                  ? state.prior_variance_m2
+                                                  : covariance_m2(state.slot, state.slot)));
+}
+
+double WallOffsetFilter::scan_variance_m2(const WallState& wall) const {
+  return squared(kScanSigma_m) + direction_share_ * kTurnedShare * wall.prior_variance_m2;
 }
 
 bool WallOffsetFilter::add(std::uint32_t face, const Vec2& normal, const FaceSums& sums,
@@ -83,7 +90,7 @@ double WallOffsetFilter::prior_covariance_m2(const Visible& one, const Visible& 
   const WallState& a = states_[one.wall];
   const WallState& b = states_[other.wall];
   const bool is_same = &a == &b;
-  const double scan_m2 = is_same ? squared(kScanSigma_m) : 0;
+  const double scan_m2 = is_same ? scan_variance_m2(a) : 0;
   if (a.slot != kNone && b.slot != kNone) return covariance_m2(a.slot, b.slot) + scan_m2;
   return is_same ? a.prior_variance_m2 + scan_m2 : 0;
 }

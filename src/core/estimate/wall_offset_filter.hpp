@@ -49,8 +49,12 @@ class WallOffsetFilter {
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
     double chi_square = 0;
   };
-  /// Starts a scan's normal equations.
-  void begin() { count_ = 0; }
+  /// Starts a scan's normal equations. `direction_share`: shown_direction_share(). The part of a
+  /// turned wall that a scan sees is off by another offset than the whole.
+  void begin(double direction_share = 0) {
+    count_ = 0;
+    direction_share_ = direction_share;
+  }
   /// `sums`: of residuals about the moved plane; `rays`: predicted on the face, in a row. False
   /// where they tell nothing of the wall: most of them went elsewhere, it is not the side of a
   /// wall, or there is no room.
@@ -93,6 +97,8 @@ class WallOffsetFilter {
     double distance = 0;                                ///< weighted sum of the residuals
   };
   double prior_covariance_m2(const Visible& one, const Visible& other) const;
+  /// Of one scan's points on a wall about its offset.
+  double scan_variance_m2(const WallState& wall) const;
   void assign_slots();
   double& at(std::size_t one, std::size_t other) { return covariance_[one * capacity_ + other]; }
 
@@ -106,6 +112,7 @@ class WallOffsetFilter {
   // Of the scan in progress.
   std::array<Visible, kMaxVisible> visible_;
   std::size_t count_ = 0;
+  double direction_share_ = 0;
   std::array<std::array<double, kMaxVisible>, kMaxVisible> factor_{};  ///< Cholesky's L of B
   std::array<Eigen::Vector4d, kMaxVisible> whitened_;  ///< L^-1 of Jacobian and residual
   std::vector<double> rows_;                           ///< of covariance_, of the visible walls

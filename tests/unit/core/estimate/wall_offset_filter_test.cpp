@@ -9,6 +9,7 @@
 
 #include "../fixtures.hpp"
 #include "core/estimate/refinement.hpp"
+#include "core/geometry/squared.hpp"
 
 namespace cornerd::core {
 namespace {
@@ -65,6 +66,17 @@ TEST_F(WallOffsetFilterTest, Scans_OffsetsRelativeToEachOtherAreLearned) {
   EXPECT_NEAR(-wall(4).offset_m - wall(0).offset_m, kOff_m, 0.002);
   EXPECT_NEAR(-wall(2).offset_m - wall(0).offset_m, kOff_m, 0.002);
   EXPECT_NEAR(wall(1).offset_m + wall(5).offset_m, 0, 0.002);
+}
+
+TEST_F(WallOffsetFilterTest, TurnedWalls_OfferLessThanWallsThatAreParallel) {
+  learn(10);
+  const auto sigma_m = [&](double direction_share) {
+    filter_.begin(direction_share);
+    return filter_.sigma_m(0);
+  };
+  // Points of a wall whose ends are off by N(0, sigma) scatter about its middle by sigma^2 / 6.
+  EXPECT_NEAR(squared(sigma_m(1)) - squared(sigma_m(0)), squared(kSigma_m) / 6, 1e-9);
+  EXPECT_NEAR(squared(sigma_m(0.25)) - squared(sigma_m(0)), squared(kSigma_m) / 24, 1e-9);
 }
 
 TEST_F(WallOffsetFilterTest, ManyScans_FrameStaysAsUncertainAsThePlan) {
