@@ -148,11 +148,10 @@ void MotionFilter::advance() {
 void MotionFilter::compare_rotations(double difference_rad, double variance, double jitter_rad2,
                                      Vector with_difference) {
   const double difference_rad2 = squared(difference_rad);
-  const double rotation_rad2 = squared(factor_.rotation_rad());
   if (!(variance + jitter_rad2 > 0)) return;
   variance += jitter_rad2;
-  rotations_ = {difference_rad2, variance,
-                std::max(rotation_rad2, squared(factor_.wheel_rotation_rad()))};
+  rotations_ = {factor_.rotation_rad() + difference_rad, factor_.rotation_rad(), variance};
+  seen_slip_rate_.add(difference_rad2, variance, factor_.rolled_m());
   double robust_variance = variance;
   if (difference_rad2 > kSlipGate * variance) {
     // The travel of one wheel is wrong by as much, most likely of the one that turned more: the

@@ -16,11 +16,11 @@
 
 namespace cornerd::core {
 
-/// A measured motion against another measurement of it.
-struct MotionError {
-  double error2 = 0;
-  double variance = 0;  ///< by the noise of both
-  double motion2 = 0;   ///< of the larger one
+/// Rotation in a scan, measured twice.
+struct RotationComparison {
+  double wheel_rad = 0;
+  double gyro_rad = 0;
+  double variance = 0;  ///< of their difference by noise; 0: there is none
 };
 
 /// An extended Kalman filter over the pose of `base` in `map` and the calibration, a slow random
@@ -98,7 +98,7 @@ class MotionFilter {
   /// Variance of a time between two readings, s^2.
   double jitter_s2() const { return jitter_s2_; }
   /// The wheels' rotation against the gyro's in the last advance() that had both.
-  MotionError take_comparison() { return std::exchange(rotations_, {}); }
+  RotationComparison take_comparison() { return std::exchange(rotations_, {}); }
   /// The rotation is the gyro's.
   bool has_gyro() const { return has_gyro_; }
   /// Scans in which the wheels' rotation was not the gyro's.
@@ -144,7 +144,7 @@ class MotionFilter {
   Matrix covariance_ = Matrix::Zero();
   MotionFactor factor_;
   std::uint64_t slips_ = 0;
-  MotionError rotations_;
+  RotationComparison rotations_;
 
   // Factors of variances as configured, and the variance of the heading by each since the last fix.
   NoiseEstimator wheel_noise_;
@@ -153,6 +153,7 @@ class MotionFilter {
   NoiseEstimator fix_heading_;
   double jitter_s2_ = 0;
   SlipRate slip_rate_;
+  SlipRate seen_slip_rate_;  ///< with those since the last fix, by a gyro that may be wrong
   /// Of innovations along each parameter.
   Vector cusums_ = Vector::Zero();
   Vector cusum_variances_ = Vector::Zero();

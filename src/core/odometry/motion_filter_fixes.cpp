@@ -92,7 +92,10 @@ bool MotionFilter::correct(const Pose2& T_map_base, const Covariance3& covarianc
                      without_slips(2, 2) + fix_heading_.factor() * squared(kFixFloor_rad),
                      rolled_m_);
   const Cholesky3 widest(with_floor(known, 1, 1));
-  if (!widest.succeeded() || innovation.dot(widest.solve(innovation)) > kFixGate) return false;
+  const bool agrees = widest.succeeded() && innovation.dot(widest.solve(innovation)) <= kFixGate;
+  if (has_gyro_ && agrees) slip_rate_ = seen_slip_rate_;
+  seen_slip_rate_ = slip_rate_;
+  if (!agrees) return false;
 
   const Cholesky3 root(with_floor(known, fix_place_.factor(), fix_heading_.factor()));
   if (!is_slip) adapt(innovation, without_slips, epoch.is_deskewed);

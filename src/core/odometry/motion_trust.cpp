@@ -14,8 +14,8 @@ namespace {
 constexpr double kOutliers = 0.05;
 /// Log odds are kept within this, so that two or three motions show a sensor that breaks.
 constexpr double kMostLogOdds = 7;
-/// Log odds of wheels and gyro after a fix: by slip they may differ in five scans, each of -3.
-constexpr double kAgreement = 15;
+/// That a sensor breaks between two fixes.
+constexpr double kBreaks = 1e-5;
 /// Share of the evidence against a sensor that a comparison can give at most: with half of it a
 /// stuck gyro is rejected for too long (OdometryFaults.GyroStuck_IsRejected).
 constexpr double kSurely = 0.8;
@@ -34,19 +34,19 @@ constexpr double kFloor_rad = 0.003;
 constexpr double kUneven_m_s = 0.07;
 constexpr double kUneven_rad_s = 0.2;
 
-}  // namespace
+double log_odds(double p) { return std::log(p / (1 - p)); }
 
-double SensorTrust::evidence(const MotionError& error) {
-  const auto density = [&](double variance) {
-    return std::exp(-error.error2 / (2 * variance)) / std::sqrt(variance);
-  };
-  const double wrong = std::max(density(error.variance + error.motion2), 1e-300);
-  const double right = (1 - kOutliers) * density(error.variance) + kOutliers * wrong;
-  return std::log(right / wrong);
+/// Of a normal distribution, but for a factor; never 0.
+double density(double error2, double variance) {
+  return std::max(std::exp(-error2 / (2 * variance)) / std::sqrt(variance), 1e-300);
 }
 
+}  // namespace
+
 void SensorTrust::add(const MotionError& error) {
-  log_odds_ = std::clamp(log_odds_ + evidence(error), -kMostLogOdds, kMostLogOdds);
+  const double wrong = density(error.error2, error.variance + error.motion2);
+  const double right = (1 - kOutliers) * density(error.error2, error.variance) + kOutliers * wrong;
+  log_odds_ = std::clamp(log_odds_ + std::log(right / wrong), -kMostLogOdds, kMostLogOdds);
 }
 
 double SensorTrust::p_right() const { return 1 / (1 + std::exp(-log_odds_)); }
@@ -78,12 +78,22 @@ void MotionTrust::compare(Sum& sum, SensorTrust& trust, double end_variance, dou
   sum = {.end_variance = end_variance};
 }
 
-void MotionTrust::add_comparison(const MotionError& rotations) {
-  if (!(rotations.variance > 0)) return;
-  const double evidence = SensorTrust::evidence(rotations);
-  agreement_ = std::min(agreement_ + evidence, kAgreement);
+void MotionTrust::add_comparison(const RotationComparison& rotations) {
+  const auto [wheel_rad, gyro_rad, variance] = rotations;
+  if (!(variance > 0)) return;
+  const double motion2 = std::max(squared(wheel_rad), squared(gyro_rad));
+  const double difference2 = squared(wheel_rad - gyro_rad);
+  // A wrong sensor is off by as much as the motion, or the gyro is reversed, or in degrees.
+  constexpr double kFaults = 3;
+  const double off = density(difference2, variance + motion2);
+  const double wrong = (off + density(squared(wheel_rad + gyro_rad), variance) +
+                        density(squared(wheel_rad - radians(gyro_rad)), variance)) /
+                       kFaults;
+  const double right = (1 - kOutliers) * density(difference2, variance) + kOutliers * off;
+  const double evidence = std::log(right / wrong);
+  agreement_ = std::min(agreement_ + evidence, -log_odds(kBreaks));
   // A rate that repeats to the bit, and surely differs from the wheels', is no slip.
-  if (may_be_stuck_ && evidence < kSurely * std::log(kOutliers)) agreement_ = 0;
+  if (may_be_stuck_ && evidence < kSurely * std::log(kFaults * kOutliers)) agreement_ = 0;
 }
 
 void MotionTrust::add_fix(const Pose2& T_map_base, const Covariance3& covariance,
@@ -97,7 +107,7 @@ void MotionTrust::add_fix(const Pose2& T_map_base, const Covariance3& covariance
   longest_s_ = 0;
   may_be_stuck_ = false;
   travel_since_fix_m_ = rotation_since_fix_rad_ = 0;
-  agreement_ = kAgreement;
+  agreement_ = -log_odds(kBreaks);
   if (!has_fix_) {
     travel_m_ = {.end_variance = travel_m2};
     wheel_rad_ = {.end_variance = wheel_rad2};
@@ -136,7 +146,7 @@ bool MotionTrust::is_healthy() const {
 }
 
 bool MotionTrust::carries() const {
-  return agreement_ > 0 &&
+  return agreement_ > log_odds(kTrusted) &&
          (std::abs(travel_since_fix_m_) < kSmall_m || travel_.p_right() > kTrusted) &&
          (std::abs(rotation_since_fix_rad_) < kSmall_rad || p_rotation() > kTrusted);
 }

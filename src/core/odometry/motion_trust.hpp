@@ -7,14 +7,19 @@
 
 namespace cornerd::core {
 
+/// A measured motion against another measurement of it.
+struct MotionError {
+  double error2 = 0;
+  double variance = 0;  ///< by the noise of both
+  double motion2 = 0;   ///< of the larger one
+};
+
 /// Whether a sensor measures a motion at all: a hidden Markov model with two states. A right one's
 /// errors have the variance of its noise but for rare slips; a wrong one (swapped, reversed, dead,
 /// in other units) is off by as much as the motion.
 class SensorTrust {
  public:
   void add(const MotionError& error);
-  /// Log of how much more probable such an error is of a right sensor.
-  static double evidence(const MotionError& error);
   double p_right() const;
 
  private:
@@ -27,8 +32,9 @@ class MotionTrust {
   explicit MotionTrust(const DriveGeometry& geometry) : geometry_(geometry) {}
 
   void add(const OdometryIncrement& step, const MotionFilter& filter);
-  /// The wheels' rotation against the gyro's in a scan: which one is wrong does not show.
-  void add_comparison(const MotionError& rotations);
+  /// The wheels' rotation against the gyro's in a scan: slips differ for a moment, a wrong sensor
+  /// in each turn.
+  void add_comparison(const RotationComparison& rotations);
   void add_fix(const Pose2& T_map_base, const Covariance3& covariance, const MotionFilter& filter);
   /// The next fix may be anywhere.
   void interrupt() { has_fix_ = false; }
@@ -60,7 +66,7 @@ class MotionTrust {
   Sum wheel_rad_;
   Sum gyro_rad_;
   double duration_s_ = 0;
-  double agreement_ = 0;  ///< of wheels and gyro since the last fix, log odds
+  double agreement_ = 0;  ///< log odds that neither wheels nor gyro broke since the last fix
   double longest_s_ = 0;  ///< increment since the last fix
   bool may_be_stuck_ = false;
   bool has_gyro_ = false;

@@ -57,6 +57,24 @@ TEST(MotionFilter, ParametersChange_AreEstimatedAgain) {
   }
 }
 
+TEST(MotionFilter, SlipsSeenByGyro_AreKnownWhenItIsMissing) {
+  const auto slip_rad2_per_m = [](double slip_share) {
+    testing::RobotErrors errors = nominal_errors();
+    Drive drive(switched_on(), errors, 1);
+    for (int i = 0; i < 10; ++i) {
+      drive.drive(3, true);
+      testing::RobotErrors slipping = errors;
+      slipping.left_scale += slip_share;
+      drive.robot().change(slipping);
+      drive.drive(0.2, true);
+      drive.robot().change(errors);
+    }
+    drive.drive(0.2, false, /*with_gyro=*/false);
+    return drive.filter().noise(1).slip_rad2_per_m;
+  };
+  EXPECT_GT(slip_rad2_per_m(0.6), 10 * slip_rad2_per_m(0));
+}
+
 TEST(MotionFilter, ParametersConstant_CovarianceIsNotInflated) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Drive drive(switched_on(), nominal_errors(), seed);

@@ -92,10 +92,30 @@ TEST(MotionTrust, SensorRepaired_IsHealthyAgain) {
 TEST(MotionTrust, WheelsAndGyroDisagreeAfterFix_NothingIsCarried) {
   TurningRobot robot;
   robot.drive(1, 1, 1);
-  robot.trust.add_comparison({.error2 = 0.01, .variance = 1e-6, .motion2 = 0.01});
+  const RotationComparison slip{.wheel_rad = 0.1, .gyro_rad = 0, .variance = 1e-6};
+  robot.trust.add_comparison(slip);
   EXPECT_TRUE(robot.trust.carries()) << "a slip";
-  for (int i = 0; i < 5; ++i) {
-    robot.trust.add_comparison({.error2 = 0.01, .variance = 1e-6, .motion2 = 0.01});
+  for (int i = 0; i < 5; ++i) robot.trust.add_comparison(slip);
+  EXPECT_FALSE(robot.trust.carries());
+}
+
+TEST(MotionTrust, GyroTurnsReversedOrInDegrees_NothingIsCarriedAtOnce) {
+  for (const double gain : {-1.0, degrees(1)}) {
+    TurningRobot robot;
+    robot.drive(1, 1, 1);
+    robot.trust.add_comparison({.wheel_rad = 0.1, .gyro_rad = gain * 0.1, .variance = 1e-6});
+    EXPECT_FALSE(robot.trust.carries()) << gain;
+  }
+}
+
+TEST(MotionTrust, RobotThatStands_TellsNothingOfItsSensors) {
+  TurningRobot robot;
+  robot.drive(1, 1, 1);
+  for (int i = 0; i < 6; ++i) {
+    robot.trust.add_comparison({.wheel_rad = 0.1, .gyro_rad = 0, .variance = 1e-6});
+  }
+  for (int i = 0; i < 100; ++i) {
+    robot.trust.add_comparison({.wheel_rad = 0, .gyro_rad = 0, .variance = 1e-6});
   }
   EXPECT_FALSE(robot.trust.carries());
 }
