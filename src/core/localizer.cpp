@@ -134,7 +134,9 @@ const PoseEstimate* Localizer::add(const OdometryReading& reading) {
   return &w.between;
 }
 
-const OdometryConfig& Localizer::odometry_config() const { return workspace_->config.odometry; }
+const std::optional<MeasuredMotion>& Localizer::measured_motion() const {
+  return workspace_->odometer.last_motion();
+}
 
 void Localizer::set_pose(const Pose2& T_map_base) {
   relocalize();
@@ -162,7 +164,7 @@ void Localizer::forget() {
   relocalize();
   workspace_->saw_all_around = false;
   workspace_->rotation.forget();
-  workspace_->odometer = Odometer(workspace_->config.odometry);
+  workspace_->odometer.reset();
   workspace_->sweep_log_odds = 0;
   forget_lidar();
 }

@@ -10,6 +10,7 @@
 #include "core/estimate/wall_offset_filter.hpp"
 #include "core/localizer_config.hpp"
 #include "core/map/wall_map.hpp"
+#include "core/odometry/odometry_frame.hpp"
 #include "core/odometry/odometry_reading.hpp"
 #include "core/scan.hpp"
 #include "core/scan_result.hpp"
@@ -61,7 +62,8 @@ class Localizer {
   /// scan goes on with: LocalizerConfig::search_nodes_per_scan.
   bool is_searching() const;
 
-  const OdometryConfig& odometry_config() const;
+  /// What the last reading told of the motion before it, if it was taken.
+  const std::optional<MeasuredMotion>& measured_motion() const;
   /// Null without a map.
   const WallMap* map() const;
   /// The current estimate of the lidar's bias.

@@ -37,8 +37,6 @@ Localization::Localization(drivers::LidarDriver& driver, std::unique_ptr<core::P
       initial_poses_(kInitialPoseSlots),
       reports_(kReportSlots),
       predictions_(kPredictionSlots),
-      odometry_frame_(current_->pipeline->localizer().odometry_config()),
-      odometry_parameters_(current_->pipeline->localizer().odometry_config().initial),
       odometry_poses_(kPredictionSlots),
       reported_(require_fd(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC), "eventfd")) {}
 
@@ -133,7 +131,6 @@ void Localization::swap_pipeline(const SampleChannel::Item& item) {
   next->pipeline->maps().resume_odometry(current_->pipeline->maps());
   retired_.store(current_.release());
   current_.reset(next);
-  odometry_frame_.configure(next->pipeline->localizer().odometry_config());
   // The sample that ended the last scan is the first of the next.
   const bool begins = item.kind == SampleChannel::Kind::kSample && item.sample.starts_scan;
   if (begins) next->pipeline->add(item.sample);
@@ -168,7 +165,6 @@ void Localization::report(core::Pipeline& pipeline, const core::ScanResult& resu
   rounds_.fetch_add(1, std::memory_order_relaxed);
   ++scans_;
   ++poses_;
-  odometry_parameters_ = result.odometry.parameters;
   const bool handed_over = reports_.put([&](ScanReport& report) {
     report.result = result;
     report.scan = pipeline.scan();
@@ -197,13 +193,13 @@ void Localization::take_readings() {
 void Localization::process(const core::OdometryReading& reading) {
   taken_.push(reading);
   report(current_->pipeline->add(reading));
-  report(odometry_frame_.add(reading, odometry_parameters_));
+  if (const auto& moved = current_->pipeline->localizer().measured_motion()) report(*moved);
 }
 
-void Localization::report(const core::OdometryPose* pose) {
-  if (pose == nullptr) return;
+void Localization::report(const core::MeasuredMotion& moved) {
+  odometry_pose_.add(moved);
   odometry_poses_.put([&](core::OdometryPose& slot) {
-    slot = *pose;
+    slot = odometry_pose_;
     if (source_ == SourceKind::kDevice) slot.t_ns += unix_ns() - monotonic_ns();
   });
   if (hurries_odometry_.load(std::memory_order_relaxed)) ::eventfd_write(reported_.get(), 1);

@@ -164,7 +164,7 @@ class Localization {
   void take_readings();
   void process(const core::OdometryReading& reading);
   void report(const core::PoseEstimate* prediction);
-  void report(const core::OdometryPose* pose);
+  void report(const core::MeasuredMotion& moved);
   void clear_event() const;
 
   drivers::LidarDriver& driver_;
@@ -189,8 +189,7 @@ class Localization {
   std::atomic<bool> publishes_predictions_{false};
   std::atomic<bool> hurries_odometry_{false};
   /// Owned by the localizer thread. It outlives pipelines: another map moves no robot.
-  core::OdometryFrame odometry_frame_;
-  core::OdometryParameters odometry_parameters_;  ///< estimated by the last scan
+  core::OdometryPose odometry_pose_;
   SlotExchange<core::OdometryPose> odometry_poses_;
   FileDescriptor reported_;
   LoopHealth own_health_;  ///< owned by the localizer thread

@@ -31,9 +31,11 @@ Odometer::Odometer(const OdometryConfig& config)
       right_(config.geometry.metres_per_count()) {}
 
 bool Odometer::add(const OdometryReading& reading) {
+  last_motion_.reset();
   if (!config_.enabled) return false;
   std::optional<OdometryIncrement> step = gate_.add(reading);
   if (!step) return false;
+  last_motion_.emplace().to_ns = step->to_ns;
   if (step->to_ns < step->from_ns) {
     restart(*step);
     return false;
@@ -44,6 +46,8 @@ bool Odometer::add(const OdometryReading& reading) {
     const CalibratedIncrement calibrated(trusted(interpolated(*step)), config_.geometry,
                                          filter_.parameters());
     path_.add(step->from_ns, step->to_ns, calibrated.motion());
+    last_motion_ = {step->to_ns, calibrated.duration_s, calibrated.motion(), calibrated.travel_m,
+                    calibrated.rotation_rad};
   }
   if (size_ == kPending) {
     consume_front();
@@ -179,6 +183,12 @@ void Odometer::forget() {
   has_pose_ = false;
   rejected_in_a_row_ = 0;
   trust_.interrupt();
+}
+
+void Odometer::reset() {
+  const ReadingGate gate = gate_;
+  *this = Odometer(config_);
+  gate_ = gate;
 }
 
 void Odometer::resume(const Odometer& other) {

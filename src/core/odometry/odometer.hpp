@@ -13,6 +13,7 @@
 #include "core/odometry/motion_path.hpp"
 #include "core/odometry/motion_trust.hpp"
 #include "core/odometry/odometry_config.hpp"
+#include "core/odometry/odometry_frame.hpp"
 #include "core/odometry/odometry_reading.hpp"
 #include "core/odometry/odometry_summary.hpp"
 #include "core/odometry/reading_gate.hpp"
@@ -37,6 +38,8 @@ class Odometer {
 
   /// True where the reading gave an increment: predict_latest() then holds for its time.
   bool add(const OdometryReading& reading);
+  /// Measured by the last reading, if it was; for the frame `odom`.
+  const std::optional<MeasuredMotion>& last_motion() const { return last_motion_; }
 
   /// Advances to the middle of a scan that ends at `end_ns`. The calls that follow hold for that
   /// time.
@@ -74,6 +77,8 @@ class Odometer {
   void set_pose(const Pose2& T_map_base, const Covariance3& covariance);
   /// Forgets the pose; the parameters stay.
   void forget();
+  /// Forgets all but the last reading, so that the next one still tells of a motion.
+  void reset();
   /// Takes over the readings of another odometer, its parameters and what it knows of the sensors,
   /// not its pose. Nothing where its config is of another robot.
   void resume(const Odometer& other);
@@ -113,6 +118,7 @@ class Odometer {
   MotionPath path_;
   CountInterpolator left_;
   CountInterpolator right_;
+  std::optional<MeasuredMotion> last_motion_;
 
   std::array<OdometryIncrement, kPending> pending_;  ///< not yet in the filter; a ring
   std::size_t first_ = 0;

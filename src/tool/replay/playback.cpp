@@ -41,8 +41,9 @@ Playback::Playback(core::Pipeline& pipeline, OnScan on_scan, OnPiece on_piece)
     : pipeline_(pipeline), on_scan_(std::move(on_scan)), on_piece_(std::move(on_piece)) {}
 
 void Playback::add(const core::OdometryReading& reading) {
+  const core::PoseEstimate* const pose = pipeline_.add(reading);
   if (on_reading_) on_reading_(reading);
-  on_intermediate_pose(pipeline_.add(reading));
+  on_intermediate_pose(pose);
 }
 
 void Playback::on_intermediate_pose(const core::PoseEstimate* pose) {

@@ -88,11 +88,13 @@ void replay(ReplayOptions& options) {
     if (!truth) return;
     if (const auto T_map_base = truth->at(pose.t_ns)) intermediate_errors.add(pose, *T_map_base);
   });
-  core::OdometryFrame frame(config.odometry.core);
+  core::OdometryPose odom;
   playback.set_on_reading([&](const core::OdometryReading& reading) {
     printer.note(reading);
-    const auto* odom = frame.add(reading, printer.odometry().parameters);
-    if (odom != nullptr) printer.print_odom(*odom);
+    const auto& moved = pipeline.localizer().measured_motion();
+    if (!moved) return;
+    odom.add(*moved);
+    printer.print_odom(odom);
   });
   playback.set_on_refusal([&](const message::RequestError& error) { printer.refuse(error); });
   if (!options.odometry.empty()) playback.set_odometry(load_odometry(options.odometry));
