@@ -171,9 +171,9 @@ void Localizer::forget() {
 
 void Localizer::resume_odometry(const Localizer& other) {
   const Workspace& before = *other.workspace_;
-  if (workspace_->config.T_base_lidar == before.config.T_base_lidar) {
-    workspace_->odometer.resume(before.odometer);
-  }
+  workspace_->odometer.resume(before.odometer);
+  // What was learned of the wheels was so by another mount.
+  if (workspace_->config.T_base_lidar != before.config.T_base_lidar) workspace_->odometer.reset();
 }
 
 void Localizer::Workspace::reject_motion(const std::optional<Prior>& prior) {

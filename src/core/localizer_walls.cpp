@@ -96,7 +96,8 @@ RefinedPose Localizer::Workspace::with_directions(const RefinedPose& parallel,
       *map, parallel, points.points(), noise_scale(), map_sigma_m(found), walls);
   if (!refined.valid ||
       !same_pose(refined.T_map_lidar, parallel.T_map_lidar, kMaxMove_m, kMaxMove_rad)) {
-    return parallel;
+    // The filter holds the scan as it was refined last.
+    return walls == nullptr ? parallel : refine_by(walls, found);
   }
   if (odometer.has_motion()) return refined;
   // A motion that nobody measured makes walls look turned: the pose stays, and its covariance holds

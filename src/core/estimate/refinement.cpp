@@ -165,8 +165,10 @@ RefinedPose Refinement::refine_directions(const WallMap& map, const RefinedPose&
                                           double map_sigma_m, WallOffsetFilter* walls) {
   direction_share_ = parallel.direction_share;
   const PosePrior prior = PosePrior::near_to(parallel.T_map_lidar);
-  RefinedPose refined = gauss_newton(map, parallel.T_map_lidar, 0, points, points, noise_scale,
-                                     map_sigma_m, kMaxSteps, &prior, walls);
+  // A prior of each scan's pose would pass for news of the frame of learned walls.
+  RefinedPose refined =
+      gauss_newton(map, parallel.T_map_lidar, 0, points, points, noise_scale, map_sigma_m,
+                   kMaxSteps, walls == nullptr ? &prior : nullptr, walls);
   refined.face_residuals = parallel.face_residuals;
   return refined;
 }
@@ -190,8 +192,8 @@ RefinedPose Refinement::gauss_newton(const WallMap& map, const Pose2& start, dou
   double extra_sigma_m = search_radius_m;
   SymmetricSolver<3> solver;
   NormalEquations sums;
-  const bool shows_directions = map_sigma_m > 0;
-  const bool shows_sigma = shows_directions && walls == nullptr && !map.plan().is_inexact();
+  const bool shows_directions = map_sigma_m > 0 && max_final_steps == kMaxSteps;
+  const bool shows_sigma = map_sigma_m > 0 && walls == nullptr && !map.plan().is_inexact();
   const double stated_m = map_sigma_m;
   uneven_share_ = 1;
   points_ = {};

@@ -151,7 +151,9 @@ void MotionFilter::compare_rotations(double difference_rad, double variance, dou
   if (!(variance + jitter_rad2 > 0)) return;
   variance += jitter_rad2;
   rotations_ = {factor_.rotation_rad() + difference_rad, factor_.rotation_rad(), variance};
-  seen_slip_rate_.add(difference_rad2, variance, factor_.rolled_m());
+  if (factor_.is_counted()) {
+    seen_slip_rate_.add(difference_rad2, variance, factor_.rolled_m());
+  }
   double robust_variance = variance;
   if (difference_rad2 > kSlipGate * variance) {
     // The travel of one wheel is wrong by as much, most likely of the one that turned more: the

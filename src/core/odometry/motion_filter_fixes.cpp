@@ -74,6 +74,7 @@ void MotionFilter::set_pose(const Pose2& T_map_base, const Covariance3& covarian
   covariance_.leftCols<3>() = with_state.transpose();
   covariance_.topLeftCorner<3, 3>() =
       covariance + covariance_(kDelay, kDelay) * velocity * velocity.transpose();
+  seen_slip_rate_ = slip_rate_;
   wheel_rad2_ = gyro_rad2_ = rolled_m_ = 0;
   scans_ = 0;
 }

@@ -14,7 +14,9 @@ namespace {
 constexpr double kOutliers = 0.05;
 /// Log odds are kept within this, so that two or three motions show a sensor that breaks.
 constexpr double kMostLogOdds = 7;
-/// That a sensor breaks between two fixes.
+/// Chi-square, 1 degree of freedom, probability 0.003: a rotation that is less is none.
+constexpr double kMotionGate = 9;
+/// That a sensor breaks between two fixes. Four scans of slip in a row are as unlikely.
 constexpr double kBreaks = 1e-5;
 /// Share of the evidence against a sensor that a comparison can give at most: with half of it a
 /// stuck gyro is rejected for too long (OdometryFaults.GyroStuck_IsRejected).
@@ -80,14 +82,14 @@ void MotionTrust::compare(Sum& sum, SensorTrust& trust, double end_variance, dou
 
 void MotionTrust::add_comparison(const RotationComparison& rotations) {
   const auto [wheel_rad, gyro_rad, variance] = rotations;
-  if (!(variance > 0)) return;
   const double motion2 = std::max(squared(wheel_rad), squared(gyro_rad));
+  if (!(variance > 0) || motion2 < kMotionGate * variance) return;
   const double difference2 = squared(wheel_rad - gyro_rad);
   // A wrong sensor is off by as much as the motion, or the gyro is reversed, or in degrees.
   constexpr double kFaults = 3;
   const double off = density(difference2, variance + motion2);
   const double wrong = (off + density(squared(wheel_rad + gyro_rad), variance) +
-                        density(squared(wheel_rad - radians(gyro_rad)), variance)) /
+                        radians(density(squared(wheel_rad - radians(gyro_rad)), variance))) /
                        kFaults;
   const double right = (1 - kOutliers) * density(difference2, variance) + kOutliers * off;
   const double evidence = std::log(right / wrong);

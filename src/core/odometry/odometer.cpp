@@ -186,9 +186,11 @@ void Odometer::forget() {
 }
 
 void Odometer::reset() {
-  const ReadingGate gate = gate_;
+  const Odometer before = *this;
   *this = Odometer(config_);
-  gate_ = gate;
+  gate_ = before.gate_;
+  left_ = before.left_;
+  right_ = before.right_;
 }
 
 void Odometer::resume(const Odometer& other) {

@@ -77,7 +77,8 @@ class Odometer {
   void set_pose(const Pose2& T_map_base, const Covariance3& covariance);
   /// Forgets the pose; the parameters stay.
   void forget();
-  /// Forgets all but the last reading, so that the next one still tells of a motion.
+  /// Forgets all but the last reading and where in their counts the wheels are, so that the next
+  /// one still tells of a motion.
   void reset();
   /// Takes over the readings of another odometer, its parameters and what it knows of the sensors,
   /// not its pose. Nothing where its config is of another robot.

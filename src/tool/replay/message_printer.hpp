@@ -36,7 +36,6 @@ class MessagePrinter {
 
   /// Resets the rates for the next file.
   void begin_recording();
-  /// As of the last scan.
   /// STATUS if a second of the data's time has passed since the last one.
   void print_status_when_due(core::TimeNs t_ns, const drivers::StreamCounters& counters);
   /// That of the recording's end also tells what is wrong with a map that does not fit: it takes

@@ -246,7 +246,7 @@ TEST(LocalizerWithOdometry, AnotherRobotOrMount_LearnsAnew) {
     for (int k = 0; k < 50; ++k) drive.drive_scan();
     drive.replace_localizer(change);
     drive.drive_scan();
-    EXPECT_EQ(drive.odometry().counters.readings, 14U) << "those of its own scan";
+    EXPECT_LE(drive.odometry().fixes, 1U) << "of its own scan";
   }
 }
 

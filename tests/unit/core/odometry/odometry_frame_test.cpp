@@ -76,12 +76,16 @@ TEST(OdometryFrame, Gap_StandsStill) {
 }
 
 TEST(OdometryFrame, OdometerThatIsReset_LosesNoMotion) {
-  FrameDrive drive;
-  for (int i = 0; i < 10; ++i) {
-    drive.go(10, 20);
+  OdometryConfig coarse = with_wheels();
+  coarse.geometry.counts_per_turn = 20;
+  FrameDrive drive(coarse);
+  for (int i = 0; i < 100; ++i) {
+    drive.go(1, 1);
+    drive.go(3, 0);
     drive.odometer.reset();
   }
-  EXPECT_NEAR(drive.go(1, 20).T_odom_base.x_m, 2000 * kCountLength_m, 2 * kCountLength_m);
+  const double count_m = coarse.geometry.metres_per_count();
+  EXPECT_NEAR(drive.go(1, 1).T_odom_base.x_m, 100 * count_m, 1.5 * count_m);
 }
 
 TEST(OdometryFrame, Disabled_HasNoMotion) {
