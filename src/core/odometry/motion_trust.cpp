@@ -85,12 +85,13 @@ void MotionTrust::add_comparison(const RotationComparison& rotations) {
   const double motion2 = std::max(squared(wheel_rad), squared(gyro_rad));
   if (!(variance > 0) || motion2 < kMotionGate * variance) return;
   const double difference2 = squared(wheel_rad - gyro_rad);
-  // A wrong sensor is off by as much as the motion, or the gyro is reversed, or in degrees.
+  // Densities of the gyro's rotation, given the wheels': where a sensor is off by as much as the
+  // motion, or the gyro is reversed, or in degrees.
   constexpr double kFaults = 3;
   const double off = density(difference2, variance + motion2);
-  const double wrong = (off + density(squared(wheel_rad + gyro_rad), variance) +
-                        radians(density(squared(wheel_rad - radians(gyro_rad)), variance))) /
-                       kFaults;
+  const double reversed = density(squared(wheel_rad + gyro_rad), variance);
+  const double in_degrees = radians(1) * density(squared(wheel_rad - radians(gyro_rad)), variance);
+  const double wrong = (off + reversed + in_degrees) / kFaults;
   const double right = (1 - kOutliers) * density(difference2, variance) + kOutliers * off;
   const double evidence = std::log(right / wrong);
   agreement_ = std::min(agreement_ + evidence, -log_odds(kBreaks));
