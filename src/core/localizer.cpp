@@ -161,6 +161,11 @@ void Localizer::relocalize() {
 }
 
 void Localizer::forget() {
+  forget_scans();
+  workspace_->odometer = Odometer(workspace_->config.odometry);
+}
+
+void Localizer::forget_scans() {
   relocalize();
   workspace_->saw_all_around = false;
   workspace_->rotation.forget();

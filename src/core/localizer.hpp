@@ -49,6 +49,8 @@ class Localizer {
 
   /// Back to the state after construction, estimates of the sensor included.
   void forget();
+  /// The same where the stream goes on: the next reading still tells of a motion.
+  void forget_scans();
 
   /// For another lidar: forgets the estimated bias and noise, not the pose.
   void forget_lidar();

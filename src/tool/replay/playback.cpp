@@ -54,7 +54,7 @@ void Playback::on_result(const core::ScanResult* result) {
   if (result == nullptr) return;
   ++scans_;
   on_scan_(pipeline_.scan(), *result);
-  if (independent_) pipeline_.localizer().forget();
+  if (independent_) pipeline_.localizer().forget_scans();
 }
 
 void Playback::play(const std::filesystem::path& file, const replay::RecordingOptions& options) {
