@@ -250,6 +250,24 @@ TEST(LocalizerWithOdometry, AnotherRobotOrMount_LearnsAnew) {
   }
 }
 
+TEST(LocalizerWithOdometry, Forget_TakesReadingsOfAnyTime) {
+  LocalizerConfig config;
+  config.odometry.enabled = true;
+  Localizer localizer(nullptr, config);
+  const auto moves_at = [&](double t_s, std::int64_t counts) {
+    const TimeNs t_ns = from_seconds(t_s);
+    localizer.add({t_ns, counts, counts, std::nullopt, t_ns});
+    return localizer.measured_motion().has_value();
+  };
+  EXPECT_FALSE(moves_at(10, 0));
+  EXPECT_TRUE(moves_at(10.02, 20));
+  localizer.forget_scans();
+  EXPECT_TRUE(moves_at(10.04, 40)) << "the stream goes on";
+  localizer.forget();
+  EXPECT_FALSE(moves_at(1, 0));
+  EXPECT_TRUE(moves_at(1.02, 20)) << "another stream";
+}
+
 TEST(Localizer, InitialPose_ResolvesSymmetry) {
   const auto map = testing::make_map(testing::two_equal_rooms());
   testing::ScanSource source(92);
