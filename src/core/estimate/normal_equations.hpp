@@ -51,6 +51,7 @@ struct NormalEquations {
     return gradient + heading_of_directions * Eigen::Vector3d::UnitZ();
   }
 
+  /// Eliminates the direction of a face.
   void marginalise_direction(const FaceResidual& face, double variance) {
     const LineSums::Eliminated eliminated = face.eliminate_direction(variance);
     of_directions += eliminated.information;

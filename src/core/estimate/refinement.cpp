@@ -192,6 +192,7 @@ RefinedPose Refinement::gauss_newton(const WallMap& map, const Pose2& start, dou
   double extra_sigma_m = search_radius_m;
   SymmetricSolver<3> solver;
   NormalEquations sums;
+  // A rough refinement makes one step, and nobody asks it for directions.
   const bool shows_directions = map_sigma_m > 0 && max_final_steps == kMaxSteps;
   const bool shows_sigma = map_sigma_m > 0 && walls == nullptr && !map.plan().is_inexact();
   const double stated_m = map_sigma_m;

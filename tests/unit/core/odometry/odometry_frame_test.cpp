@@ -75,6 +75,26 @@ TEST(OdometryFrame, Gap_StandsStill) {
   EXPECT_NEAR(drive.go(1, 0).T_odom_base.x_m, x_m, kCountLength_m);
 }
 
+TEST(OdometryFrame, FixElsewhere_IsNoJump) {
+  FrameDrive drive;
+  drive.go(50, 20);
+  drive.odometer.advance(kNsPerSecond * 8 / 10, kNsPerSecond * 9 / 10, kNsPerSecond);
+  drive.odometer.correct({5, 5, 1}, Covariance3::Identity() * 1e-6);
+  const OdometryPose pose = drive.go(50, 20);
+  EXPECT_LE(drive.largest_step_m, 22 * kCountLength_m);
+  EXPECT_NEAR(pose.T_odom_base.x_m, 99 * 20 * kCountLength_m, kCountLength_m);
+}
+
+TEST(OdometryFrame, OtherRobot_KeepsThePose) {
+  FrameDrive drive;
+  const double x_m = drive.go(51, 20).T_odom_base.x_m;
+  OdometryConfig other = with_wheels();
+  other.geometry.track_m = 0.3;
+  drive.odometer = Odometer(other);
+  EXPECT_DOUBLE_EQ(drive.go(1, 0).T_odom_base.x_m, x_m);
+  EXPECT_NEAR(drive.go(10, 20).T_odom_base.x_m, x_m + 200 * kCountLength_m, kCountLength_m);
+}
+
 TEST(OdometryFrame, OdometerThatIsReset_LosesNoMotion) {
   OdometryConfig coarse = with_wheels();
   coarse.geometry.counts_per_turn = 20;
