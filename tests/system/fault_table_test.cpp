@@ -203,10 +203,15 @@ TEST_F(FaultTable, NoDataAfterStart_MotorTurns_Recovers) {
 }
 
 TEST_F(FaultTable, Booting_Over_Recovers) {
-  lidar_->act([](auto& device, auto t_ns) { device.power_cycle(t_ns); });
+  lidar_.reset();
   launch();
   expect(
-      "switched on as the daemon starts", "booting", "identifying", [] {}, [] {});
+      "plugged in, which switches it on", "booting", "identifying",
+      [&] {
+        plug_in();
+        lidar_->act([](auto& device, auto t_ns) { device.power_cycle(t_ns); });
+      },
+      [] {});
 }
 
 }  // namespace
