@@ -66,7 +66,7 @@ class Robot {
         random_(seed),
         lidar_(trial.sensor, kTrialSamples, seed, trial.scan_ns),
         localizer_(map_, config(trial)),
-        bound_(trial.sensor.noise, core::LocalizerConfig().max_range_m) {}
+        bound_(trial.sensor.noise, core::LocalizerConfig().max_range_m, trial.map_sigma_m) {}
 
   void visit(const core::WallMap& world, const core::Pose2& start, PoseScore& score) {
     // The clock starts anew at each pose, so the odometry has to be reset.
@@ -177,10 +177,15 @@ std::vector<Trial> default_trials(const Maps& arenas,
   add("30 % of the rays stopped", arena).clutter = 0.3;
   add("a wall displaced by 3 cm", displaced);
   add("a door closed", closed);
-  add("walls off by 1 cm, arena", with_walls_off(arenas.front(), 0.01));
-  add("walls off by 1 cm, flat", with_walls_off(flat, 0.01));
-  add("walls off by 3 cm, flat", with_walls_off(flat, 0.03));
-  add("walls off by 5 cm, flat", with_walls_off(flat, 0.05));
+  const auto add_off = [&](std::string title, const auto& map, double sigma_m) -> Trial& {
+    Trial& trial = add(std::move(title), with_walls_off(map, sigma_m));
+    trial.map_sigma_m = sigma_m;
+    return trial;
+  };
+  add_off("walls off by 1 cm, arena", arenas.front(), 0.01);
+  add_off("walls off by 1 cm, flat", flat, 0.01);
+  add_off("walls off by 3 cm, flat", flat, 0.03);
+  add_off("walls off by 5 cm, flat", flat, 0.05);
   add("ends of walls off by 1 cm, arena",
       with_walls_off(arenas.front(), 0.01, replay::with_end_error));
   add("ends of walls off by 1 cm, flat", with_walls_off(flat, 0.01, replay::with_end_error));
@@ -190,7 +195,7 @@ std::vector<Trial> default_trials(const Maps& arenas,
   Trial& narrow = add("90 degrees, 0.3 m/s, 0.9 rad/s, first scans", home);
   narrow.sensor.field_of_view.width_rad = core::kPi / 2;
   narrow.motion = {0.3, 0.9};
-  Trial& hard = add("240 degrees, 25 % stopped, 3 cm", with_walls_off(flat, 0.03));
+  Trial& hard = add_off("240 degrees, 25 % stopped, 3 cm", flat, 0.03);
   hard.sensor.field_of_view.width_rad = core::radians(240);
   hard.clutter = 0.25;
   add("mirror image of the flat's map",

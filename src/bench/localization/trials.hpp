@@ -26,6 +26,7 @@ struct Trial {
   std::string title;
   std::vector<MappedBuilding> buildings;
   replay::SensorModel sensor;
+  double map_sigma_m = 0;      ///< of each wall's offset, for the bound
   double clutter = 0;          ///< share of the rays that obstacles stop
   std::size_t scans_each = 1;  ///< at each start pose; the first has no prior
   CircularMotion motion;

@@ -57,6 +57,20 @@ TEST(CramerRao, RangeNoiseAlone_MatchesClosedForm) {
   EXPECT_NEAR(rays / expected, 1, 0.02);
 }
 
+TEST(CramerRao, WallsOff_BoundIsThatOfTheMeanOfOppositeOnes) {
+  // Without noise two walls that are each off by sigma place the robot between them to sigma /
+  // sqrt(2).
+  const auto map = replay::make_room();
+  const core::Pose2 place{1.2, 1.1, 0.4};
+  constexpr double kSigma_m = 0.03;
+  core::SensorNoise noise;
+  noise.floor_m = 1e-6;
+  noise.share = noise.bearing_rad = 0;
+  const core::Covariance3 bound =
+      CramerRao(noise, 12, kSigma_m).bound(*map, place, scan_at(*map, place, 1600));
+  for (int i = 0; i < 2; ++i) EXPECT_NEAR(std::sqrt(2 * bound(i, i)) / kSigma_m, 1, 0.02);
+}
+
 TEST(CramerRao, SingleWall_NoBound) {
   core::FloorPlan plan;
   plan.walls = {{{-50, 1}, {50, 1}, 0}};
