@@ -6,6 +6,19 @@
 #include <numeric>
 
 namespace cornerd::bench {
+namespace {
+
+/// Probability of at most `count` of `trials`, each with probability `p`.
+double binomial_cdf(double count, double trials, double p) {
+  double sum = 0;
+  for (double k = 0; k <= count; ++k) {
+    sum += std::exp(std::lgamma(trials + 1) - std::lgamma(k + 1) - std::lgamma(trials - k + 1) +
+                    k * std::log(p) + (trials - k) * std::log1p(-p));
+  }
+  return sum;
+}
+
+}  // namespace
 
 MeanAndDeviation mean_and_deviation(const std::vector<double>& values) {
   MeanAndDeviation result;
@@ -25,6 +38,23 @@ double quantile(const std::vector<double>& sorted, double share) {
   const auto below = static_cast<std::size_t>(rank);
   if (below + 1 >= sorted.size()) return sorted.back();
   return std::lerp(sorted[below], sorted[below + 1], rank - static_cast<double>(below));
+}
+
+Interval clopper_pearson(std::size_t count, std::size_t trials) {
+  constexpr double kEachSide = 0.025;
+  constexpr int kHalvings = 50;
+  const auto k = static_cast<double>(count);
+  const auto n = static_cast<double>(trials);
+  // Where that few become as unlikely as that.
+  const auto where = [&](double at_most, double probability) {
+    Interval within;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = std::midpoint(within.low, within.high);
+      (binomial_cdf(at_most, n, middle) > probability ? within.low : within.high) = middle;
+    }
+    return within.low;
+  };
+  return {count > 0 ? where(k - 1, 1 - kEachSide) : 0, count < trials ? where(k, kEachSide) : 1};
 }
 
 BoxplotStatistics boxplot_of(std::vector<double> values) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace cornerd::bench {
@@ -13,6 +14,14 @@ MeanAndDeviation mean_and_deviation(const std::vector<double>& values);
 
 /// Interpolated linearly; 0 for no values. `sorted`: ascending.
 double quantile(const std::vector<double>& sorted, double share);
+
+struct Interval {
+  double low = 0;
+  double high = 1;
+};
+/// Of the probability of what happened `count` times in `trials`, with 95 % confidence (Clopper and
+/// Pearson 1934).
+Interval clopper_pearson(std::size_t count, std::size_t trials);
 
 /// Tukey's boxplot: the box spans the quartiles, the whiskers reach to the farthest values
 /// within 1.5 box lengths, values beyond are outliers.

@@ -39,6 +39,7 @@ const PoseEstimate* Localizer::follow(const Sample& sample) {
   pose.inliers = found->rays.hits;
   pose.rmse_m = found->refined.rmse_m;
   pose.age_s = w.memory.age_s(pose.t_ns);
+  pose.p_wrong = w.result.pose.p_wrong;
   return &pose;
 }
 

@@ -15,9 +15,8 @@ constexpr double kLearnedRadius_m = 0.02;
 /// Scans from one place err together: the next one counts after a motion of this much.
 constexpr double kNextPlace_m = 0.1;
 constexpr double kNextPlace_rad = radians(10);
-/// Scans that are less certain than this or worse explained teach nothing: posterior of another
-/// pose; reduced chi-square, which a motion raises; share of the points on walls; pose.
-constexpr double kMaxWrong = 1e-5;
+/// Scans that are less certain than this or worse explained teach nothing: reduced
+/// chi-square, which a motion raises; share of the points on walls; pose.
 constexpr double kMaxSpread = 1.4;
 constexpr double kMinShare = 0.5;
 constexpr double kMaxSigma_m = 0.05;
@@ -67,8 +66,7 @@ bool Localizer::Workspace::Place::learns_walls(const FloorPlan& plan) {
 bool Localizer::Workspace::is_certain(const RefinedPose& refined) const {
   const double on_walls = static_cast<double>(refined.inliers);
   const double variance_m2 = refined.covariance(0, 0) + refined.covariance(1, 1);
-  return named_in_a_row >= kMinNamed && result.pose.p_wrong < kMaxWrong &&
-         on_walls > kMinShare * static_cast<double>(points.size()) &&
+  return named_in_a_row >= kMinNamed && on_walls > kMinShare * static_cast<double>(points.size()) &&
          variance_m2 < kMaxSigma_m * kMaxSigma_m;
 }
 

@@ -14,6 +14,7 @@ namespace cornerd::message {
 namespace {
 
 constexpr Limits kCountLimits{0, 9007199254740992.0};
+constexpr Limits kProbability{0, 1, ""};
 constexpr Limits kAnyNumber{std::numeric_limits<double>::lowest(),
                             std::numeric_limits<double>::max()};
 /// Bounds the memory that a hostile STATUS takes.
@@ -63,6 +64,7 @@ ParsedLine read_pose(FieldReader& fields) {
   pose.inliers = read_count(fields, "inliers");
   pose.rmse_m = fields.optional_number("rmse", kAnyNumber);
   pose.age_s = fields.optional_number("age", kAnyNumber);
+  pose.p_wrong = fields.optional_number("p_wrong", kProbability);
   if (fields.has("alternatives")) {
     for (const Json& alternative : fields.array("alternatives", core::kMaxAlternatives)) {
       FieldReader entries(alternative);

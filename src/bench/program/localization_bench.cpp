@@ -11,7 +11,7 @@
 #include "bench/localization/trials.hpp"
 #include "bench/program/benches.hpp"
 #include "bench/program/contest_maps.hpp"
-#include "core/recognition/decision.hpp"
+#include "bench/statistics.hpp"
 #include "settings/map_file.hpp"
 #include "tool/command_line/output.hpp"
 #include "tool/command_line/progress_bar.hpp"
@@ -86,12 +86,16 @@ std::string trials_text(const std::vector<TrialResult>& trials) {
 
 std::string reliability_text(const Reliability& reliability) {
   tool::TextTable table;
-  table.add_row({"p_wrong of the best hypothesis", "scans", "expected wrong", "wrong"});
+  table.add_row(
+      {"p_wrong of the best hypothesis", "scans", "expected wrong", "wrong", "95 % from", "to"});
   for (const Reliability::Bin& bin : reliability.bins()) {
-    table.add_row({bin.min_p_wrong > 0 ? tool::formatted("from %g", bin.min_p_wrong)
-                                       : tool::formatted("below %g (a fix)", core::kWrongFixRate),
+    const Interval rate = clopper_pearson(bin.wrong, bin.scans);
+    table.add_row({bin.min_p_wrong > 0
+                       ? tool::formatted("from %g", bin.min_p_wrong)
+                       : tool::formatted("below %g", reliability.bins()[1].min_p_wrong),
                    std::to_string(bin.scans), tool::formatted("%.3g", bin.expected_wrong),
-                   std::to_string(bin.wrong)});
+                   std::to_string(bin.wrong), tool::formatted("%.2g", rate.low),
+                   tool::formatted("%.2g", rate.high)});
   }
   return "\nReliability, all trials\n\n" + table.text(/*numbers=*/true);
 }

@@ -26,9 +26,11 @@ Decision decide(std::span<const VerifiedHypothesis> places, const std::optional<
     if (decision.rivals == 0 && of_others > kWrongFixRate) decision.rivals = i + 1;
   }
   decision.rivals = std::max<std::size_t>(decision.rivals, 1);
-  decision.doubt = 1 - 1 / (1 + of_others + elsewhere);
-  if (of_others + elsewhere < kWrongFixRate && places.front().refined.is_held()) {
+  const double of_rest = of_others + elsewhere;
+  decision.doubt = of_rest / (1 + of_rest);
+  if (of_rest < kWrongFixRate && places.front().refined.is_held()) {
     decision.state = PoseState::kFix;
+    decision.doubt = std::sqrt(decision.doubt);
   } else if (elsewhere < kMaxElsewhere) {
     decision.state = PoseState::kAmbiguous;
     decision.doubt = std::max(decision.doubt, kLeastDoubt);

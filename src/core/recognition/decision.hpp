@@ -20,7 +20,10 @@ struct Decision {
   PoseState state = PoseState::kLost;
   std::size_t place = 0;   ///< index of the chosen place, in the states fix and tracking
   std::size_t rivals = 0;  ///< how many of the first places hold all that are in doubt
-  double doubt = 0;        ///< belief that the likeliest place is not the right one
+  /// Belief that the likeliest place is not the right one. Of a fix the square root: rays are not
+  /// independent, and of fixes of which the odds leave p, about sqrt(p) are wrong
+  /// (src/bench/poses.md, "Reliability of the posterior").
+  double doubt = 0;
 };
 
 /// Names the fewest places of PlaceSearch, the likeliest first, that leave out no more than

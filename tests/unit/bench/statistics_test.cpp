@@ -29,6 +29,15 @@ TEST(Quantile, BetweenTwoValues_IsInterpolated) {
   EXPECT_EQ(quantile({}, 0.5), 0);
 }
 
+TEST(ClopperPearson, TextbookIntervals) {
+  EXPECT_NEAR(clopper_pearson(4, 20).low, 0.0573, 1e-4);
+  EXPECT_NEAR(clopper_pearson(4, 20).high, 0.4366, 1e-4);
+  EXPECT_EQ(clopper_pearson(0, 100).low, 0);
+  EXPECT_NEAR(clopper_pearson(0, 100).high, 1 - std::pow(0.025, 0.01), 1e-6);
+  EXPECT_EQ(clopper_pearson(100, 100).high, 1);
+  EXPECT_NEAR(clopper_pearson(100, 100).low, std::pow(0.025, 0.01), 1e-6);
+}
+
 TEST(Boxplot, ElevenValues_TukeyStatistics) {
   // Quartiles 3.5 and 8.5: whiskers reach at most to -4 and 16.
   const BoxplotStatistics plot = boxplot_of({40, 1, 2, 3, 4, 5, 6, 7, 8, 9, 16});

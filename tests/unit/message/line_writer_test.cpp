@@ -41,6 +41,7 @@ core::PoseEstimate some_pose(core::PoseState state) {
   pose.inliers = 312;
   pose.rmse_m = 0.00456;
   pose.age_s = 0.25;
+  pose.p_wrong = 1e-5;
   return pose;
 }
 
@@ -64,7 +65,7 @@ TEST(PoseLine, FixWithRoom_HasEveryField) {
       writer.pose(some_pose(core::PoseState::kFix), &plan),
       R"({"class":"POSE","seq":42,"t":1700000000.123456,"state":"fix","x":1.25,"y":-0.5,)"
       R"("theta":3,"cov":{"xx":1e-06,"xy":2e-07,"xt":3e-07,"yy":4e-06,"yt":5e-07,"tt":6e-06},)"
-      R"("room":"room \"1\"","corners":7,"inliers":312,"rmse":0.00456,"age":0.25})"
+      R"("room":"room \"1\"","corners":7,"inliers":312,"rmse":0.00456,"age":0.25,"p_wrong":1e-05})"
       "\n");
 }
 
@@ -112,6 +113,16 @@ TEST(PoseLine, AmbiguousOrLost_HasNoPose) {
   }
 }
 
+TEST(PoseLine, WhatThisScanDoesNotName_HasNoProbability) {
+  LineWriter writer;
+  for (const auto state : {core::PoseState::kPredicted, core::PoseState::kLost}) {
+    EXPECT_FALSE(read(writer.pose(some_pose(state), nullptr)).contains("p_wrong"));
+  }
+  core::PoseEstimate ambiguous = some_pose(core::PoseState::kAmbiguous);
+  ambiguous.alternatives = {{{1, 2, 0.5}, 1.0}};
+  EXPECT_EQ(read(writer.pose(ambiguous, nullptr))["p_wrong"], 1e-5);
+}
+
 TEST(PoseLine, Alternatives_Written_KeepOrder) {
   LineWriter writer;
   core::PoseEstimate pose = some_pose(core::PoseState::kAmbiguous);
@@ -137,6 +148,7 @@ TEST(PoseLine, NonFiniteNumbers_LeftOut) {
   pose.covariance(0, 1) = std::numeric_limits<double>::quiet_NaN();
   pose.rmse_m = std::numeric_limits<double>::infinity();
   pose.age_s = std::numeric_limits<double>::infinity();
+  pose.p_wrong = std::numeric_limits<double>::quiet_NaN();
   const json line = read(writer.pose(pose, nullptr));
   EXPECT_THAT(keys_of(line), ::testing::UnorderedElementsAre("class", "seq", "t", "state", "y",
                                                              "corners", "inliers"));

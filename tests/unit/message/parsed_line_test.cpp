@@ -40,6 +40,7 @@ core::PoseEstimate fix() {
   pose.corners = 5;
   pose.inliers = 200;
   pose.rmse_m = 0.003;
+  pose.p_wrong = 0.125;
   return pose;
 }
 
@@ -62,6 +63,7 @@ TEST(ParsedLine, Pose_WrittenByLineWriter_ReadBack) {
   EXPECT_EQ(pose.inliers, 200U);
   EXPECT_EQ(pose.rmse_m, 0.003);
   EXPECT_EQ(pose.age_s, 0);
+  EXPECT_EQ(pose.p_wrong, 0.125);
 }
 
 TEST(ParsedLine, Odom_WrittenByLineWriter_ReadBack) {
