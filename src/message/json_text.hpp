@@ -2,6 +2,7 @@
 // Writes compact JSON into preallocated memory.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -67,7 +68,6 @@ class JsonText {
   void integer(std::string_view name, T value) {
     key(name), integer(value);
   }
-  void significant(std::string_view name, double value) { key(name), significant(value); }
   void seconds(std::string_view name, core::TimeNs t_ns) { key(name), seconds(t_ns); }
   void open_object(std::string_view name) { key(name), open_object(); }
   void open_array(std::string_view name) { key(name), open_array(); }
@@ -76,6 +76,9 @@ class JsonText {
     if (!value.empty()) string(name, value);
   }
   void number(std::string_view name, double value, int decimals);
+  void significant(std::string_view name, double value) {
+    if (std::isfinite(value)) key(name), significant(value);
+  }
 
  private:
   void open(char bracket) {

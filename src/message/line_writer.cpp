@@ -236,9 +236,7 @@ std::string_view LineWriter::pose(const core::PoseEstimate& pose, const core::Fl
   if (publishes_pose && pose.inliers > 0) write_metres(json_, "rmse", pose.rmse_m);
   json_.number("age", pose.age_s, kTimeDecimals);
   const bool names_places = core::has_pose(pose.state) || !pose.alternatives.empty();
-  if (names_places && std::isfinite(pose.p_wrong)) {
-    json_.significant("p_wrong", pose.p_wrong);
-  }
+  if (names_places) json_.significant("p_wrong", pose.p_wrong);
   write_alternatives(json_, pose.alternatives, [&](const core::Alternative& alternative) {
     if (map_names.empty()) return std::string_view();
     return std::string_view(plan != nullptr ? plan->name : map_names[alternative.map]);
