@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Poses of partial scans.
+#include <limits>
+
 #include "core/localizer_workspace.hpp"
 
 namespace cornerd::core {
@@ -39,7 +41,7 @@ const PoseEstimate* Localizer::follow(const Sample& sample) {
   pose.inliers = found->rays.hits;
   pose.rmse_m = found->refined.rmse_m;
   pose.age_s = w.memory.age_s(pose.t_ns);
-  pose.p_wrong = w.result.pose.p_wrong;
+  pose.p_wrong = std::numeric_limits<double>::quiet_NaN();
   return &pose;
 }
 

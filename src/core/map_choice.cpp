@@ -86,7 +86,7 @@ void MapChoice::report(PoseEstimate& pose) const {
   for (Alternative& alternative : pose.alternatives) alternative.score /= sum;
   pose.state = PoseState::kAmbiguous;
   pose.t_ns = compared_ns_;
-  pose.p_wrong = 1 - filter_.belief(pose.alternatives.front().map);
+  pose.p_wrong = std::max(kLeastDoubt, 1 - filter_.belief(pose.alternatives.front().map));
 }
 
 void MapChoice::resume(const EstimatedBias& learned) {

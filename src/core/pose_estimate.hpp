@@ -40,8 +40,8 @@ struct PoseEstimate {
   std::size_t inliers = 0;          ///< samples on the map's walls
   double rmse_m = 0;                ///< of the inliers
   double age_s = 0;                 ///< since the last fix or tracking
-  /// 1 - posterior of the likeliest hypothesis of this scan, 0 to 1 (Decision::doubt).
-  /// At least kLeastDoubt where it is ambiguous.
+  /// 1 - posterior of the likeliest hypothesis of this scan, 0 to 1 (Decision::doubt). At least
+  /// kLeastDoubt where it is ambiguous; NaN of a partial scan, which compares no places.
   double p_wrong = 0;
   std::vector<Alternative> alternatives;  ///< capacity kMaxAlternatives; best first
 };

@@ -9,6 +9,11 @@ namespace {
 
 /// Places are named as rivals where the scan was taken in this map but for this share of belief.
 constexpr double kMaxElsewhere = 0.01;
+/// No scan shows more (src/bench/poses.md).
+constexpr double kLeastDoubtOfNamed = 1e-6;
+
+/// Rays are not independent: of fixes of which the odds leave p, about sqrt(p) are wrong.
+double doubt_of_named(double by_odds) { return std::max(std::sqrt(by_odds), kLeastDoubtOfNamed); }
 
 }  // namespace
 
@@ -30,7 +35,7 @@ Decision decide(std::span<const VerifiedHypothesis> places, const std::optional<
   decision.doubt = of_rest / (1 + of_rest);
   if (of_rest < kWrongFixRate && places.front().refined.is_held()) {
     decision.state = PoseState::kFix;
-    decision.doubt = std::sqrt(decision.doubt);
+    decision.doubt = doubt_of_named(decision.doubt);
   } else if (elsewhere < kMaxElsewhere) {
     decision.state = PoseState::kAmbiguous;
     decision.doubt = std::max(decision.doubt, kLeastDoubt);
@@ -39,7 +44,7 @@ Decision decide(std::span<const VerifiedHypothesis> places, const std::optional<
   if (filter.likeliest() && filter.doubt() < kWrongFixRate && decision.state != PoseState::kFix) {
     decision.place = *filter.likeliest();
     decision.state = PoseState::kTracking;
-    decision.doubt = filter.doubt();
+    decision.doubt = doubt_of_named(filter.doubt());
   }
   return decision;
 }

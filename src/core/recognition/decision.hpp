@@ -20,9 +20,8 @@ struct Decision {
   PoseState state = PoseState::kLost;
   std::size_t place = 0;   ///< index of the chosen place, in the states fix and tracking
   std::size_t rivals = 0;  ///< how many of the first places hold all that are in doubt
-  /// Belief that the likeliest place is not the right one. Of a fix the square root: rays are not
-  /// independent, and of fixes of which the odds leave p, about sqrt(p) are wrong
-  /// (src/bench/poses.md, "Reliability of the posterior").
+  /// Probability that the likeliest place is not the right one: what the odds leave to others, of a
+  /// named one calibrated (src/bench/poses.md, "Reliability of the posterior").
   double doubt = 0;
 };
 

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
+
+#include "core/geometry/squared.hpp"
 
 namespace cornerd::core {
 namespace {
@@ -53,8 +56,16 @@ TEST(Decide, ManyUnlikelyPlaces_AreAmbiguousTogether) {
   for (int k = 0; k < 6; ++k) places.push_back(place_at(10 + k, 18));
   const Decision among_many = decide_alone(places);
   EXPECT_EQ(among_many.state, PoseState::kAmbiguous);
-  EXPECT_GT(7 * alone.doubt, kWrongFixRate);
+  EXPECT_GT(7 * squared(alone.doubt), kWrongFixRate);
   EXPECT_EQ(among_many.doubt, kLeastDoubt) << "more than the evidence tells";
+}
+
+TEST(Decide, NamedPlace_DoubtIsTheRootOfWhatTheOddsLeave) {
+  EXPECT_NEAR(decide_alone({place_at(1, 14)}).doubt, std::exp(-7), 1e-6);
+  EXPECT_EQ(decide_alone({place_at(1, 60)}).doubt, 1e-6);
+  const Decision tracking = decide_after({1, 0, 0}, {place_at(1, 5)});
+  ASSERT_EQ(tracking.state, PoseState::kTracking);
+  EXPECT_GT(tracking.doubt, 1e-5);
 }
 
 TEST(Decide, EqualPlaces_ShareThePosterior) {
