@@ -14,7 +14,7 @@ namespace cornerd::message {
 namespace {
 
 constexpr Limits kCountLimits{0, 9007199254740992.0};
-constexpr Limits kProbability{0, 1, ""};
+constexpr Limits kProbability{0, 1};
 constexpr Limits kAnyNumber{std::numeric_limits<double>::lowest(),
                             std::numeric_limits<double>::max()};
 /// Bounds the memory that a hostile STATUS takes.

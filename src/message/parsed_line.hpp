@@ -33,7 +33,7 @@ struct ParsedPose {
   std::uint64_t inliers = 0;
   std::optional<double> rmse_m;
   std::optional<double> age_s;
-  std::optional<double> p_wrong;                ///< absent if predicted or lost
+  std::optional<double> p_wrong;                ///< absent if predicted, lost, or by part of a scan
   std::vector<core::Alternative> alternatives;  ///< best first
 };
 

@@ -27,8 +27,8 @@ core::Covariance3 CramerRao::bound(const core::WallMap& map, const core::Pose2& 
     const double sine = std::abs(face.normal.dot(ray));
     const double variance_m2 = noise_.variance_across_m2(range_m, sine);
     const double across_m = (scan[i].range_m - range_m) * sine;
-    if (across_m * across_m > kOutlierSigmas * kOutlierSigmas * (variance_m2 + map_variance_m2_))
-      continue;
+    const double most_m2 = kOutlierSigmas * kOutlierSigmas * (variance_m2 + map_variance_m2_);
+    if (across_m * across_m > most_m2) continue;
     const core::Vec2 arm = range_m * ray;
     const Eigen::Vector3d jacobian(face.normal.x(), face.normal.y(),
                                    face.normal.y() * arm.x() - face.normal.x() * arm.y());

@@ -26,15 +26,15 @@ class CramerRao {
                           const core::PolarScan& scan);
 
  private:
-  core::SensorNoise noise_;
-  core::RayCaster prediction_;
-  double map_variance_m2_;
-  /// By index into map.faces().
   struct FaceSums {
     double information = 0;                              ///< sum of 1 / variance
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< sum of jacobian / variance
   };
-  std::vector<FaceSums> faces_;
+
+  core::SensorNoise noise_;
+  core::RayCaster prediction_;
+  double map_variance_m2_;
+  std::vector<FaceSums> faces_;  ///< by index into map.faces()
 };
 
 }  // namespace cornerd::bench

@@ -26,7 +26,7 @@ class Reliability {
   const auto& bins() const { return bins_; }
 
  private:
-  std::array<Bin, 7> bins_ = {{{0}, {1e-6}, {1e-5}, {1e-4}, {1e-3}, {1e-2}, {1e-1}}};
+  std::array<Bin, 6> bins_ = {{{1e-6}, {1e-5}, {1e-4}, {1e-3}, {1e-2}, {1e-1}}};
 };
 
 /// Pose estimates against known poses.

@@ -90,12 +90,9 @@ std::string reliability_text(const Reliability& reliability) {
       {"p_wrong of the best hypothesis", "scans", "expected wrong", "wrong", "95 % from", "to"});
   for (const Reliability::Bin& bin : reliability.bins()) {
     const Interval rate = clopper_pearson(bin.wrong, bin.scans);
-    table.add_row({bin.min_p_wrong > 0
-                       ? tool::formatted("from %g", bin.min_p_wrong)
-                       : tool::formatted("below %g", reliability.bins()[1].min_p_wrong),
-                   std::to_string(bin.scans), tool::formatted("%.3g", bin.expected_wrong),
-                   std::to_string(bin.wrong), tool::formatted("%.2g", rate.low),
-                   tool::formatted("%.2g", rate.high)});
+    table.add_row({tool::formatted("from %g", bin.min_p_wrong), std::to_string(bin.scans),
+                   tool::formatted("%.3g", bin.expected_wrong), std::to_string(bin.wrong),
+                   tool::formatted("%.2g", rate.low), tool::formatted("%.2g", rate.high)});
   }
   return "\nReliability, all trials\n\n" + table.text(/*numbers=*/true);
 }

@@ -97,8 +97,8 @@ TEST(Reliability, Sum_CountsBoth) {
   one.add(answer(core::PoseState::kAmbiguous, 0.002), {5, 2, 0});
   Reliability sum = one;
   sum.add(one);
-  EXPECT_EQ(sum.bins()[4].scans, 2u);
-  EXPECT_EQ(sum.bins()[4].wrong, 2u);
+  EXPECT_EQ(sum.bins()[3].scans, 2u);
+  EXPECT_EQ(sum.bins()[3].wrong, 2u);
 }
 
 }  // namespace
