@@ -49,6 +49,8 @@ void write_pose(MetricsWriter& out, const message::ParsedPose& pose) {
             core::to_seconds(pose.t_ns));
   out.gauge("cornerd_pose_age_seconds", "Time since the last fix or tracking.", pose.age_s);
   out.gauge("cornerd_pose_rmse_meters", "Of the inliers to the map.", pose.rmse_m);
+  out.gauge("cornerd_pose_wrong_probability", "That the pose, or the first alternative, is wrong.",
+            pose.p_wrong);
   if (!pose.T_map_base) return;
   out.gauge("cornerd_pose_x_meters", "Position in the map.", pose.T_map_base->x_m);
   out.gauge("cornerd_pose_y_meters", "Position in the map.", pose.T_map_base->y_m);

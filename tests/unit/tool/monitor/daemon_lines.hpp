@@ -17,7 +17,7 @@ inline std::string status_line(const std::string& lidar = R"("state":"running")"
 inline const std::string kFixLine =
     R"({"class":"POSE","seq":9,"t":100.5,"state":"fix","x":1,"y":0.5,"theta":0,)"
     R"("cov":{"xx":4e-8,"xy":0,"xt":0,"yy":1e-8,"yt":0,"tt":1e-6},)"
-    R"("room":"hall","corners":4,"inliers":210,"rmse":0.0021,"age":0})";
+    R"("room":"hall","corners":4,"inliers":210,"rmse":0.0021,"age":0,"p_wrong":2e-6})";
 inline const std::string kLostLine =
     R"({"class":"POSE","seq":10,"t":100.6,"state":"lost","corners":1,"inliers":0,"age":3.5})";
 inline const std::string kAmbiguousLine =

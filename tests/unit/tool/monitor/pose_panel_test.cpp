@@ -33,6 +33,7 @@ TEST(PosePanel, Fix_ShowsSigmaAndSource) {
             "theta      0.00 deg +- 0.06 deg\n"
             "corners 4, inliers 210\n"
             "rmse 2.1 mm  age 0.4 s\n"
+            "wrong once in 500000\n"
             "\n"
             "poses 8.0/s  scans 7.1/s\n"
             "samples 1923/s\n"
@@ -55,7 +56,7 @@ TEST(PosePanel, PoseWithoutSuccessor_AgesAndIsStale) {
   const auto lines = panel_lines(state, 3 * core::kNsPerSecond);
   EXPECT_EQ(lines[0].text, "stale fix  hall");
   EXPECT_EQ(lines[5].text, "rmse 2.1 mm  age 3.0 s");
-  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(lines[i].style, Style::kDim) << lines[i].text;
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(lines[i].style, Style::kDim) << lines[i].text;
   state.take_line(kFixLine, 3 * core::kNsPerSecond);
   EXPECT_EQ(panel_lines(state, 3 * core::kNsPerSecond)[0].text, "fix  hall");
 }
