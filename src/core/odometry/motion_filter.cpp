@@ -32,10 +32,9 @@ MotionFilter::MotionFilter(const OdometryConfig& config)
       most_sigmas_(config.conservative ? kMostSigmas : kMostSigmasOfSurvey),
       factor_(config.geometry, config.initial),
       // Fixes in a growing map share errors: what they show seems smaller than it is.
-      wheel_noise_(config.conservative ? 0.1 : 1, 100),
-      gyro_noise_(config.conservative ? 0.1 : 1, 100),
-      fix_place_(config.conservative ? 0.03 : 1, 1),
-      fix_heading_(config.conservative ? 0.03 : 1, 1) {
+      wheel_noise_(config.conservative ? 0.1 : 1, 100, config.conservative ? 0.03 : 1),
+      gyro_noise_(config.conservative ? 0.1 : 1, 100, config.conservative ? 0.03 : 1),
+      fix_place_(config.conservative ? 0.03 : 1, 1) {
   const OdometryParameters& initial = config.initial;
   state_.segment<5>(kBias) << initial.gyro_bias_rad_s, initial.left_scale, initial.right_scale,
       initial.track_scale, initial.gyro_scale;
@@ -149,6 +148,7 @@ void MotionFilter::compare_rotations(double difference_rad, double variance, dou
                                      Vector with_difference) {
   const double difference_rad2 = squared(difference_rad);
   if (!(variance + jitter_rad2 > 0)) return;
+  const WalkStep step = wheels_beside_gyro(variance, jitter_rad2);
   variance += jitter_rad2;
   rotations_ = {factor_.rotation_rad() + difference_rad, factor_.rotation_rad(), variance};
   if (factor_.is_counted()) {
@@ -166,12 +166,28 @@ void MotionFilter::compare_rotations(double difference_rad, double variance, dou
     with_difference.head<2>() +=
         kLikelier * (is_right ? 1 : -1) * std::abs(difference_rad) * slip_m;
     robust_variance += difference_rad2;
+    wheel_noise_.restart(step);
   } else if (factor_.is_counted()) {
-    const double wheel_rad2 = factor_.covariance()(3, 3);
-    wheel_noise_.add(difference_rad2, wheel_rad2 / wheel_noise_.factor(), variance - wheel_rad2);
+    wheel_noise_.add(step);
   }
+  const double before_rad = state_[kTheta];
   update<1>(-Eigen::Matrix<double, 1, 1>(difference_rad), with_difference / robust_variance,
             with_difference);
+  by_wheels_rad_ += state_[kTheta] - before_rad;
+}
+
+WalkStep MotionFilter::wheels_beside_gyro(double variance, double jitter_rad2) const {
+  const double wheel_rad2 = factor_.covariance()(3, 3);
+  const double ends_rad2 = 4 * geometry_.quantization_variance() / squared(geometry_.track_m);
+  const double difference_rad = factor_.wheel_rotation_rad() - factor_.rotation_rad();
+  // The wheels start anew from what they measure: it is the correction too. The floor is of one
+  // end, where both are within their counts.
+  return {.innovation = difference_rad,
+          .correction = difference_rad,
+          .walk = wheel_rad2 / wheel_noise_.factor(),
+          .grown = std::max(0.0, variance - wheel_rad2 - ends_rad2),
+          .noise = jitter_rad2 / 2,
+          .floor = ends_rad2 / 2};
 }
 
 void MotionFilter::predict_gap(double duration_s) {

@@ -132,8 +132,14 @@ class MotionFilter {
   double slip_rad2(double rolled_m) const {
     return has_gyro_ ? 0 : kSlipTail * slip_rate_.rad2_per_m() * rolled_m;
   }
-  /// `known`: without slips.
-  void adapt(const Eigen::Vector3d& innovation, const Covariance3& known, bool is_deskewed);
+  /// Of the sensor that measures the rotation.
+  WalkNoiseEstimator& heading_noise() { return has_gyro_ ? gyro_noise_ : wheel_noise_; }
+  /// The wheels' angle in the last advance() beside the gyro's; `variance` of both without jitter.
+  WalkStep wheels_beside_gyro(double variance, double jitter_rad2) const;
+  /// A fix of this variance beside the heading by the sensor, but for innovation and correction.
+  WalkStep fix_beside_sensor(double fix_rad2, bool is_deskewed) const;
+  /// After a fix.
+  void begin_walk();
   void keep_in_bounds();
 
   DriveGeometry geometry_;
@@ -147,10 +153,9 @@ class MotionFilter {
   RotationComparison rotations_;
 
   // Factors of variances as configured, and the variance of the heading by each since the last fix.
-  NoiseEstimator wheel_noise_;
-  NoiseEstimator gyro_noise_;
+  WalkNoiseEstimator wheel_noise_;
+  WalkNoiseEstimator gyro_noise_;
   NoiseEstimator fix_place_;
-  NoiseEstimator fix_heading_;
   double jitter_s2_ = 0;
   SlipRate slip_rate_;
   SlipRate seen_slip_rate_;  ///< with those since the last fix, by a gyro that may be wrong
@@ -159,7 +164,9 @@ class MotionFilter {
   Vector cusum_variances_ = Vector::Zero();
   double wheel_rad2_ = 0;
   double gyro_rad2_ = 0;
-  double rolled_m_ = 0;  ///< without a gyro, which would show slips
+  double by_wheels_rad_ = 0;  ///< of the heading, beside the gyro's
+  double fixed_rad2_ = 0;     ///< variance of the heading after the last fix
+  double rolled_m_ = 0;       ///< without a gyro, which would show slips
   int scans_ = 0;
   bool has_gyro_ = false;
 };

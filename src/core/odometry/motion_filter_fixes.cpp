@@ -16,9 +16,6 @@ constexpr double kFixGate = 30.7;
 /// mapped wrong. The share of it that there is adapts to the innovations.
 constexpr double kFixFloor_m = 0.002;
 constexpr double kFixFloor_rad = 0.001;
-/// Of a random walk over a scan, in units of its variance: what two consecutive fixes that are
-/// deskewed by it share: 5/12, by integration over the samples.
-constexpr double kSharedNoise = 5.0 / 12;
 /// A parameter changes where the cumulative sum of the innovations along it, normalised, exceeds so
 /// many sigma (Page 1954), with forgetting (Lucas and Saccucci 1990): of thirty fixes. Constant
 /// parameters reach 3.1 in drives of 600 fixes, wheels that change by 1 % 25.
@@ -75,7 +72,13 @@ void MotionFilter::set_pose(const Pose2& T_map_base, const Covariance3& covarian
   covariance_.topLeftCorner<3, 3>() =
       covariance + covariance_(kDelay, kDelay) * velocity * velocity.transpose();
   seen_slip_rate_ = slip_rate_;
-  wheel_rad2_ = gyro_rad2_ = rolled_m_ = 0;
+  heading_noise().restart(fix_beside_sensor(covariance(2, 2), epoch.is_deskewed));
+  begin_walk();
+}
+
+void MotionFilter::begin_walk() {
+  fixed_rad2_ = covariance_(kTheta, kTheta);
+  wheel_rad2_ = gyro_rad2_ = rolled_m_ = by_wheels_rad_ = 0;
   scans_ = 0;
 }
 
@@ -90,7 +93,7 @@ bool MotionFilter::correct(const Pose2& T_map_base, const Covariance3& covarianc
   const bool is_slip =
       !has_gyro_ &&
       slip_rate_.add(squared(innovation[2]),
-                     without_slips(2, 2) + fix_heading_.factor() * squared(kFixFloor_rad),
+                     without_slips(2, 2) + heading_noise().floor() * squared(kFixFloor_rad),
                      rolled_m_);
   const Cholesky3 widest(with_floor(known, 1, 1));
   const bool agrees = widest.succeeded() && innovation.dot(widest.solve(innovation)) <= kFixGate;
@@ -98,32 +101,37 @@ bool MotionFilter::correct(const Pose2& T_map_base, const Covariance3& covarianc
   seen_slip_rate_ = slip_rate_;
   if (!agrees) return false;
 
-  const Cholesky3 root(with_floor(known, fix_place_.factor(), fix_heading_.factor()));
-  if (!is_slip) adapt(innovation, without_slips, epoch.is_deskewed);
+  const Cholesky3 root(with_floor(known, fix_place_.factor(), heading_noise().floor()));
+  WalkStep step = fix_beside_sensor(covariance(2, 2), epoch.is_deskewed);
   const Measurement with_innovation = jacobian_at(epoch) * covariance_;
   detect_changes(with_innovation, root, innovation);
   update<3>(innovation, root.solve_columns(with_innovation).transpose(),
             with_innovation.transpose());
   keep_in_bounds();
-  wheel_rad2_ = gyro_rad2_ = rolled_m_ = 0;
-  scans_ = 0;
+  if (is_slip) {
+    heading_noise().restart(step);
+  } else {
+    step.innovation = by_wheels_rad_ + innovation[2];
+    step.correction = by_wheels_rad_ + angle_between(expected.theta_rad, pose_at(epoch).theta_rad);
+    heading_noise().add(step);
+    for (const int i : {0, 1}) {
+      fix_place_.add(squared(innovation[i]), squared(kFixFloor_m), known(i, i));
+    }
+  }
+  begin_walk();
   return true;
 }
 
-void MotionFilter::adapt(const Eigen::Vector3d& innovation, const Covariance3& known,
-                         bool is_deskewed) {
-  NoiseEstimator& noise = has_gyro_ ? gyro_noise_ : wheel_noise_;
-  const double modelled_rad2 = has_gyro_ ? gyro_rad2_ : wheel_rad2_;
-  // The sensors' noise in a scan that is deskewed by them is in the fix as well, and less of it in
-  // the innovation of consecutive ones.
-  const double of_scan_rad2 = is_deskewed ? modelled_rad2 / std::max(1, scans_) : 0;
-  const double heading_rad2 = known(2, 2) + fix_heading_.factor() * squared(kFixFloor_rad);
-  noise.add(squared(innovation[2]), modelled_rad2 - kSharedNoise * of_scan_rad2,
-            heading_rad2 - noise.factor() * (modelled_rad2 + 2 * kDeskewNoiseShare * of_scan_rad2));
-  for (const int i : {0, 1}) {
-    fix_place_.add(squared(innovation[i]), squared(kFixFloor_m), known(i, i));
-  }
-  fix_heading_.add(squared(innovation[2]), squared(kFixFloor_rad), known(2, 2));
+WalkStep MotionFilter::fix_beside_sensor(double fix_rad2, bool is_deskewed) const {
+  const double factor = (has_gyro_ ? gyro_noise_ : wheel_noise_).factor();
+  const double walk_rad2 = has_gyro_ ? gyro_rad2_ : wheel_rad2_;
+  const double scan_rad2 = is_deskewed ? walk_rad2 / std::max(1, scans_) : 0;
+  const double grown_rad2 = covariance_(kTheta, kTheta) - fixed_rad2_ - slip_rad2(rolled_m_);
+  return {.walk = walk_rad2,
+          .grown = std::max(0.0, grown_rad2 - factor * walk_rad2),
+          .averaged = scan_rad2,
+          .noise = std::max(0.0, fix_rad2 - kDeskewNoiseShare * factor * scan_rad2),
+          .floor = squared(kFixFloor_rad)};
 }
 
 void MotionFilter::detect_changes(const Measurement& with_innovation, const Cholesky3& root,

@@ -4,43 +4,84 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "core/geometry/squared.hpp"
 
 namespace cornerd::core {
 
-/// Estimates how much larger or smaller a noise is than modelled, from squared residuals that have
-/// other noise in them as well: the mean over a few factors by their posteriors (multiple-model
-/// estimation, Magill 1965). Variances in any unit; the factor is one of variances.
-class NoiseEstimator {
+/// A sum whose error walks (a heading by a gyro, the wheels' angle beside it), compared with a
+/// measurement of it that has an error of its own each time. Variances, in any unit.
+struct WalkStep {
+  double innovation = 0;  ///< of the filter that is adapted
+  double correction = 0;  ///< of that filter's sum by this measurement
+  double walk = 0;        ///< since the last measurement, by the noise as modelled
+  double grown = 0;       ///< by all else
+  /// The walk in the time over which the measurement is a mean of the sum, as modelled. The mean of
+  /// a random walk over equal times is a random walk beside a noise of -1/6 of its variance in one
+  /// of them.
+  double averaged = 0;
+  double noise = 0;  ///< of the measurement, but for that
+  double floor = 0;  ///< most that may be added to it
+};
+
+/// Estimates how much larger or smaller a noise is than modelled, from residuals that have other
+/// noise in them as well: the mean over a few factors of variances by their posteriors
+/// (multiple-model estimation, Magill 1965). With `kFloors` above 1 also what share of a floor the
+/// measurements have: each pair of factors is a Kalman filter of its own, since a walk and a noise
+/// of measurements differ in how one innovation follows another, not in their size (Mehra 1970).
+template <std::size_t kFloors>
+class NoiseBank {
  public:
-  /// The factor's bounds; the prior is log-normal about 1.
-  NoiseEstimator(double least, double most) {
+  /// The factors' bounds, the floor's up to 1; the prior is log-normal about 1.
+  NoiseBank(double least, double most, double least_floor = 1) {
     for (std::size_t i = 0; i < kModels; ++i) {
-      const double share = static_cast<double>(i) / (kModels - 1);
-      factors_[i] = least * std::pow(most / least, share);
-      log_prior_[i] = -squared(std::log(factors_[i]) / kPriorSigma) / 2;
+      Model& model = models_[i];
+      model.factor = least * std::pow(most / least, share_of(i / kFloors, kFactors));
+      model.floor = std::pow(least_floor, 1 - share_of(i % kFloors, kFloors));
+      model.log_prior = -(squared(std::log(model.factor)) + squared(std::log(model.floor))) /
+                        squared(kPriorSigma) / 2;
+      model.log_posterior = model.log_prior;
     }
-    log_posterior_ = log_prior_;
-    factor_ = mean();
+    take_means();
   }
 
   /// `squared`: the residual's; `modelled`: its variance by the noise as modelled; `other`: by all
   /// else.
   void add(double squared, double modelled, double other) {
     if (!(modelled > 0)) return;
-    for (std::size_t i = 0; i < kModels; ++i) {
-      const double variance = factors_[i] * modelled + std::max(other, 0.0);
-      log_posterior_[i] = kMemory * log_posterior_[i] + (1 - kMemory) * log_prior_[i] -
-                          (std::log(variance) + std::min(squared / variance, kOutlier)) / 2;
+    for (Model& model : models_) {
+      model.judge(squared, model.factor * modelled + std::max(other, 0.0));
     }
-    factor_ = mean();
+    take_means();
+  }
+
+  void add(const WalkStep& step) {
+    for (Model& model : models_) {
+      const double noise = model.noise_of(step);
+      const double before = model.variance + step.grown + model.factor * step.walk;
+      const double variance = std::max(before + noise, kLeastVariance);
+      const double residual = step.innovation - model.offset;
+      model.judge(squared(residual), variance);
+      model.offset += before / variance * residual - step.correction;
+      model.variance = before * noise / variance;
+    }
+    take_means();
+  }
+  /// The filter starts again from this measurement.
+  void restart(const WalkStep& step) {
+    for (Model& model : models_) {
+      model.offset = 0;
+      model.variance = model.noise_of(step);
+    }
   }
 
   double factor() const { return factor_; }
+  double floor() const { return floor_; }
 
  private:
-  static constexpr std::size_t kModels = 12;
+  static constexpr std::size_t kFactors = 12;
+  static constexpr std::size_t kModels = kFactors * kFloors;
   /// Of the logarithm: from a gyro's data sheet to one on a robot that vibrates is a factor of ten
   /// in standard deviations, two sigma.
   static constexpr double kPriorSigma = 2.3;
@@ -48,24 +89,50 @@ class NoiseEstimator {
   static constexpr double kMemory = 0.999;
   /// A residual beyond four sigma counts as one of four.
   static constexpr double kOutlier = 16;
+  static constexpr double kLeastVariance = 1e-12;
 
-  double mean() {
-    const double most = *std::max_element(log_posterior_.begin(), log_posterior_.end());
-    double sum = 0;
-    double weighted = 0;
-    for (std::size_t i = 0; i < kModels; ++i) {
-      log_posterior_[i] -= most;
-      const double weight = std::exp(log_posterior_[i]);
-      sum += weight;
-      weighted += weight * factors_[i];
+  struct Model {
+    double factor = 1;
+    double floor = 1;
+    double log_prior = 0;
+    double log_posterior = 0;
+    double offset = 0;    ///< of the sum, from that of the filter that is adapted
+    double variance = 0;  ///< of it
+
+    double noise_of(const WalkStep& step) const {
+      return step.noise + floor * step.floor - factor * step.averaged / 6;
     }
-    return weighted / sum;
+    void judge(double squared, double expected) {
+      log_posterior = kMemory * log_posterior + (1 - kMemory) * log_prior -
+                      (std::log(expected) + std::min(squared / expected, kOutlier)) / 2;
+    }
+  };
+
+  static double share_of(std::size_t i, std::size_t n) {
+    return n > 1 ? static_cast<double>(i) / static_cast<double>(n - 1) : 1;
+  }
+  void take_means() {
+    double most = models_.front().log_posterior;
+    for (const Model& model : models_) most = std::max(most, model.log_posterior);
+    double sum = 0;
+    factor_ = floor_ = 0;
+    for (Model& model : models_) {
+      model.log_posterior -= most;
+      const double weight = std::exp(model.log_posterior);
+      sum += weight;
+      factor_ += weight * model.factor;
+      floor_ += weight * model.floor;
+    }
+    factor_ /= sum;
+    floor_ /= sum;
   }
 
-  std::array<double, kModels> factors_;
-  std::array<double, kModels> log_prior_;
-  std::array<double, kModels> log_posterior_;
-  double factor_;
+  std::array<Model, kModels> models_;
+  double factor_ = 1;
+  double floor_ = 1;
 };
+
+using NoiseEstimator = NoiseBank<1>;
+using WalkNoiseEstimator = NoiseBank<4>;
 
 }  // namespace cornerd::core

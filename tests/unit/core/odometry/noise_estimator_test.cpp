@@ -50,5 +50,63 @@ TEST(NoiseEstimator, NoModelledNoise_EstimateIsUnchanged) {
   EXPECT_EQ(estimator.factor(), of_prior());
 }
 
+struct Estimated {
+  double factor = 0;
+  double floor = 0;
+};
+
+/// Measurements of a walk of `factor` times the modelled variance of 1, each off by white noise of
+/// `floor` times 4; as the means of the walk over the time since the one before, if `averaged`.
+/// `gain`: of the filter that is adapted, from 1, which starts anew from each of them.
+Estimated estimated_walk(double factor, double floor, double gain, bool averaged = false) {
+  constexpr int kSteps = 50;
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  WalkNoiseEstimator estimator(0.1, 100, 0.03);
+  double walk = 0;
+  double sum = 0;
+  for (int i = 0; i < 1000; ++i) {
+    double mean = 0;
+    for (int k = 0; k < kSteps; ++k) {
+      walk += std::sqrt(factor / kSteps) * normal(random);
+      mean += walk / kSteps;
+    }
+    const double measured = (averaged ? mean : walk) + 2 * std::sqrt(floor) * normal(random);
+    const WalkStep step{.innovation = measured - sum,
+                        .correction = gain * (measured - sum),
+                        .walk = 1,
+                        .averaged = averaged ? 1.0 : 0.0,
+                        .floor = 4};
+    if (i == 0) {
+      estimator.restart(step);
+      sum = measured;
+    } else {
+      estimator.add(step);
+      sum += step.correction;
+    }
+  }
+  return {estimator.factor(), estimator.floor()};
+}
+
+/// Factors that are tried are 1.9 times each other.
+constexpr double kLogStep = 0.34;
+
+// The innovations of the first two have the same mean square, 6.4.
+TEST(NoiseEstimator, WalkAndWhiteNoise_AreToldApart) {
+  for (const double gain : {1.0, 0.3}) {
+    const Estimated much_walk = estimated_walk(6, 0.05, gain);
+    EXPECT_NEAR(std::log(much_walk.factor), std::log(6), kLogStep) << gain;
+    EXPECT_LT(much_walk.floor, 0.15) << gain;
+    const Estimated much_noise = estimated_walk(4, 0.3, gain);
+    EXPECT_NEAR(std::log(much_noise.factor), std::log(4), kLogStep) << gain;
+    EXPECT_NEAR(much_noise.floor, 0.3, 0.1) << gain;
+    EXPECT_NEAR(std::log(estimated_walk(0.3, 1, gain).factor), std::log(0.3), kLogStep) << gain;
+  }
+}
+
+TEST(NoiseEstimator, MeansOfWalk_FactorIsThatOfWalk) {
+  EXPECT_NEAR(std::log(estimated_walk(4, 0.05, 1, true).factor), std::log(4), kLogStep);
+}
+
 }  // namespace
 }  // namespace cornerd::core
