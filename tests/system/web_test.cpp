@@ -126,9 +126,6 @@ TEST_F(Web, PageAndLastMessages_AreServed) {
     EXPECT_TRUE(wait_until([&] { return is(ask(head(std::string("GET ") + path)), 200); })) << path;
   }
   EXPECT_NE(ask(head("GET /api/map")).find("\"class\":\"MAP\""), std::string::npos);
-  EXPECT_TRUE(wait_until([&] {
-    return ask(head("GET /metrics")).find("\ncornerd_pose_wrong_probability ") != std::string::npos;
-  }));
   EXPECT_TRUE(is(ask(head("GET /nothing")), 404));
 }
 

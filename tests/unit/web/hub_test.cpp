@@ -77,12 +77,13 @@ TEST_F(HubTest, Recording_HasTheLastSecondsOnly) {
 
 TEST_F(HubTest, Metrics_HaveStateAndCounters) {
   hub_.note(Event::kConnected, "", {});
-  say("{\"class\":\"POSE\",\"seq\":7,\"t\":1,\"x\":0.5,\"y\":2,\"theta\":0,\"state\":\"fix\"}");
+  say(R"({"class":"POSE","seq":7,"t":1,"x":0.5,"y":2,"theta":0,"state":"fix","p_wrong":0.25})");
   say("{\"class\":\"STATUS\",\"t\":1,\"lidar\":{\"state\":\"running\"},\"counters\":{\"scans\":12}"
       "}");
   const std::string text = metrics_text(hub_);
   for (const char* line : {"cornerd_up 1\n", "cornerd_pose_state{state=\"fix\"} 1\n",
                            "cornerd_pose_state{state=\"lost\"} 0\n", "cornerd_pose_x_meters 0.5\n",
+                           "cornerd_pose_wrong_probability 0.25\n",
                            "# TYPE cornerd_scans_total counter\ncornerd_scans_total 12\n"}) {
     EXPECT_NE(text.find(line), std::string::npos) << line << text;
   }
