@@ -17,9 +17,8 @@ struct WalkStep {
   double correction = 0;  ///< of that filter's sum by this measurement
   double walk = 0;        ///< since the last measurement, by the noise as modelled
   double grown = 0;       ///< by all else
-  /// The walk in the time over which the measurement is a mean of the sum, as modelled. The mean of
-  /// a random walk over equal times is a random walk beside a noise of -1/6 of its variance in one
-  /// of them.
+  /// The walk in the time over which each measurement is a mean of the sum, as modelled: from mean
+  /// to mean a random walk has a third of that less.
   double averaged = 0;
   double noise = 0;  ///< of the measurement, but for that
   double floor = 0;  ///< most that may be added to it
@@ -59,7 +58,8 @@ class NoiseBank {
   void add(const WalkStep& step) {
     for (Model& model : models_) {
       const double noise = model.noise_of(step);
-      const double before = model.variance + step.grown + model.factor * step.walk;
+      const double walk = model.factor * (step.walk - step.averaged / 3);
+      const double before = model.variance + step.grown + walk;
       const double variance = std::max(before + noise, kLeastVariance);
       const double residual = step.innovation - model.offset;
       model.judge(squared(residual), variance);
@@ -99,9 +99,7 @@ class NoiseBank {
     double offset = 0;    ///< of the sum, from that of the filter that is adapted
     double variance = 0;  ///< of it
 
-    double noise_of(const WalkStep& step) const {
-      return step.noise + floor * step.floor - factor * step.averaged / 6;
-    }
+    double noise_of(const WalkStep& step) const { return step.noise + floor * step.floor; }
     void judge(double squared, double expected) {
       log_posterior = kMemory * log_posterior + (1 - kMemory) * log_prior -
                       (std::log(expected) + std::min(squared / expected, kOutlier)) / 2;

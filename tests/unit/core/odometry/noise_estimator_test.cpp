@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
 
 namespace cornerd::core {
 namespace {
@@ -57,25 +58,31 @@ struct Estimated {
 
 /// Measurements of a walk of `factor` times the modelled variance of 1, each off by white noise of
 /// `floor` times 4; as the means of the walk over the time since the one before, if `averaged`.
-/// `gain`: of the filter that is adapted, from 1, which starts anew from each of them.
-Estimated estimated_walk(double factor, double floor, double gain, bool averaged = false) {
+/// `gain`: of the filter that is adapted, from 1, which starts anew from each of them. Of every ten
+/// steps it walks in `walking`.
+Estimated estimated_walk(double factor, double floor, double gain, bool averaged = false,
+                         int walking = 10) {
   constexpr int kSteps = 50;
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;
   WalkNoiseEstimator estimator(0.1, 100, 0.03);
   double walk = 0;
   double sum = 0;
+  double walked_before = 1;
   for (int i = 0; i < 1000; ++i) {
+    const double walks = i % 10 < walking ? 1 : 0;
+    // From the middle of one step to that of the next.
+    const double walked = (std::exchange(walked_before, walks) + walks) / 2;
     double mean = 0;
     for (int k = 0; k < kSteps; ++k) {
-      walk += std::sqrt(factor / kSteps) * normal(random);
+      walk += walks * std::sqrt(factor / kSteps) * normal(random);
       mean += walk / kSteps;
     }
     const double measured = (averaged ? mean : walk) + 2 * std::sqrt(floor) * normal(random);
     const WalkStep step{.innovation = measured - sum,
                         .correction = gain * (measured - sum),
-                        .walk = 1,
-                        .averaged = averaged ? 1.0 : 0.0,
+                        .walk = averaged ? walked : walks,
+                        .averaged = averaged ? walked : 0,
                         .floor = 4};
     if (i == 0) {
       estimator.restart(step);
@@ -105,7 +112,10 @@ TEST(NoiseEstimator, WalkAndWhiteNoise_AreToldApart) {
 }
 
 TEST(NoiseEstimator, MeansOfWalk_FactorIsThatOfWalk) {
-  EXPECT_NEAR(std::log(estimated_walk(4, 0.05, 1, true).factor), std::log(4), kLogStep);
+  for (const int walking : {10, 5, 1}) {
+    const double factor = estimated_walk(4, 0.05, 1, true, walking).factor;
+    EXPECT_NEAR(std::log(factor), std::log(4), kLogStep) << walking;
+  }
 }
 
 }  // namespace
