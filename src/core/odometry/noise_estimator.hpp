@@ -90,6 +90,7 @@ class NoiseBank {
   /// A residual beyond four sigma counts as one of four.
   static constexpr double kOutlier = 16;
   static constexpr double kLeastVariance = 1e-12;
+  static constexpr double kNegligible = -20;  ///< log of a share of the mean
 
   struct Model {
     double factor = 1;
@@ -116,6 +117,7 @@ class NoiseBank {
     factor_ = floor_ = 0;
     for (Model& model : models_) {
       model.log_posterior -= most;
+      if (model.log_posterior < kNegligible) continue;
       const double weight = std::exp(model.log_posterior);
       sum += weight;
       factor_ += weight * model.factor;
@@ -131,6 +133,6 @@ class NoiseBank {
 };
 
 using NoiseEstimator = NoiseBank<1>;
-using WalkNoiseEstimator = NoiseBank<4>;
+using WalkNoiseEstimator = NoiseBank<3>;
 
 }  // namespace cornerd::core

@@ -70,7 +70,8 @@ void add_pose(const message::ParsedPose& pose, double silence_s, std::vector<Pan
   if (pose.rmse_m) fit = formatted("rmse %.1f mm  ", 1000 * *pose.rmse_m);
   if (pose.age_s) fit += formatted("age %.1f s", *pose.age_s + silence_s);
   if (!fit.empty()) lines.push_back({fit});
-  if (pose.p_wrong > 0.0) lines.push_back({formatted("wrong once in %.0f", 1 / *pose.p_wrong)});
+  if (pose.T_map_base && pose.p_wrong > 0.0)
+    lines.push_back({formatted("wrong once in %.0f", 1 / *pose.p_wrong)});
 }
 
 void add_rates(const MonitorState& state, core::TimeNs now_ns, std::vector<PanelLine>& lines) {

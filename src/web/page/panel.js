@@ -34,7 +34,7 @@ export function showPose(pose) {
   $("state").textContent = pose.state;
   $("state").dataset.state = pose.state;
   const since = pose.state !== "predicted" || pose.age === undefined ? "" : ` for ${pose.age.toFixed(1)} s`;
-  const odds = pose.p_wrong > 0 ? `, wrong once in ${Math.round(1 / pose.p_wrong).toLocaleString("en")}` : "";
+  const odds = pose.x !== undefined && pose.p_wrong > 0 ? `, wrong once in ${Math.round(1 / pose.p_wrong).toLocaleString("en")}` : "";
   $("meaning").textContent = meanings[pose.state] + since + odds;
   const known = pose.x !== undefined;
   $("x").textContent = known ? pose.x.toFixed(3) : "–";
