@@ -99,13 +99,27 @@ const VerifiedHypothesis* PlaceSearch::exact_place() const {
 }
 
 void PlaceSearch::fit_best_exactly() {
-  const auto best = std::min_element(candidates_.begin(), candidates_.end(), is_better);
-  if (exact_place() != nullptr || best == candidates_.end() || best->is_sure ||
-      best->score < kMayBeExact) {
-    return;
+  if (exact_place() != nullptr || candidates_.empty()) return;
+  std::sort(candidates_.begin(), candidates_.end(), is_better);
+  if (candidates_.front().is_sure) return;
+  std::size_t kept = 0;
+  std::size_t tried = 0;
+  for (const Candidate& candidate : candidates_) {
+    const Pose2& T_map_lidar = candidate.T_map_lidar;
+    if (std::any_of(places_.begin(), places_.end(), [&](const VerifiedHypothesis& place) {
+          return place.is_exact &&
+                 same_pose(place.refined.T_map_lidar, T_map_lidar, kOnePlace_m, kOnePlace_rad);
+        })) {
+      continue;
+    }
+    const bool is_rival = exact_place() != nullptr && tried < kMaxCompared;
+    if (candidate.score >= kMayBeExact && (tried++ == 0 || is_rival)) {
+      tried_ = fitter_.exactly(T_map_lidar, kRoughRefinements.front().radius_m);
+      if (add_if_exact(tried_)) continue;
+    }
+    candidates_[kept++] = candidate;
   }
-  tried_ = fitter_.exactly(best->T_map_lidar, kRoughRefinements.front().radius_m);
-  if (add_if_exact(tried_)) candidates_.erase(best);
+  candidates_.resize(kept);
 }
 
 VerifiedHypothesis PlaceSearch::fitted_exactly(const Pose2& T_map_lidar) {
