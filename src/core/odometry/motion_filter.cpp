@@ -67,11 +67,20 @@ void MotionFilter::add(const OdometryIncrement& step) {
   if (step.has_gyro != has_gyro_ || step.is_gap) advance();
   if (step.is_gap) return predict_gap(step.duration_s());
   if (factor_.duration_s() == 0) {
-    has_gyro_ = step.has_gyro;
+    if (step.has_gyro != has_gyro_) switch_heading_sensor();
     factor_ = factor();  // by the parameters of now
   }
   jitter_s2_ = step.jitter_s2;
   factor_.add(step);
+}
+
+void MotionFilter::switch_heading_sensor() {
+  const WalkNoiseEstimator& before = heading_noise();
+  has_gyro_ = !has_gyro_;
+  heading_noise().take_floor(before);
+  wheel_noise_.interrupt();
+  gyro_noise_.interrupt();
+  uncounted_ = {};
 }
 
 void MotionFilter::advance() {
@@ -149,9 +158,10 @@ void MotionFilter::compare_rotations(double difference_rad, double variance, dou
   const double difference_rad2 = squared(difference_rad);
   if (!(variance + jitter_rad2 > 0)) return;
   const WalkStep step = wheels_beside_gyro(variance, jitter_rad2);
+  const bool is_counted = factor_.is_counted();
   variance += jitter_rad2;
   rotations_ = {factor_.rotation_rad() + difference_rad, factor_.rotation_rad(), variance};
-  if (factor_.is_counted()) {
+  if (is_counted) {
     seen_slip_rate_.add(difference_rad2, variance, factor_.rolled_m());
   }
   double robust_variance = variance;
@@ -167,31 +177,37 @@ void MotionFilter::compare_rotations(double difference_rad, double variance, dou
         kLikelier * (is_right ? 1 : -1) * std::abs(difference_rad) * slip_m;
     robust_variance += difference_rad2;
     wheel_noise_.restart(step);
-  } else if (factor_.is_counted()) {
+  } else if (is_counted) {
     wheel_noise_.add(step);
   }
+  uncounted_ = is_counted ? WalkStep{} : step;
   const double before_rad = state_[kTheta];
+  const double before_rad2 = covariance_(kTheta, kTheta);
   update<1>(-Eigen::Matrix<double, 1, 1>(difference_rad), with_difference / robust_variance,
             with_difference);
   by_wheels_rad_ += state_[kTheta] - before_rad;
+  fixed_rad2_ += covariance_(kTheta, kTheta) - before_rad2;
 }
 
 WalkStep MotionFilter::wheels_beside_gyro(double variance, double jitter_rad2) const {
   const double wheel_rad2 = factor_.covariance()(3, 3);
   const double ends_rad2 = 4 * geometry_.quantization_variance() / squared(geometry_.track_m);
-  const double difference_rad = factor_.wheel_rotation_rad() - factor_.rotation_rad();
-  // The wheels start anew from what they measure: it is the correction too. The floor is of one
-  // end, where both are within their counts.
+  const double difference_rad =
+      uncounted_.innovation + factor_.wheel_rotation_rad() - factor_.rotation_rad();
+  // The sum follows the wheels: the innovation is the correction. The floor is of one end, where
+  // both wheels are within their counts.
   return {.innovation = difference_rad,
           .correction = difference_rad,
           .walk = wheel_rad2 / wheel_noise_.factor(),
-          .grown = std::max(0.0, variance - wheel_rad2 - ends_rad2),
+          .grown = uncounted_.grown + std::max(0.0, variance - wheel_rad2 - ends_rad2),
           .noise = jitter_rad2 / 2,
           .floor = ends_rad2 / 2};
 }
 
 void MotionFilter::predict_gap(double duration_s) {
   doubt_times();
+  wheel_noise_.interrupt();
+  uncounted_ = {};
   const double place_m2 = squared(kUnknown_m_s * duration_s);
   covariance_.diagonal().head<3>() +=
       Eigen::Vector3d(place_m2, place_m2, squared(std::min(kUnknown_rad_s * duration_s, kPi)));

@@ -27,7 +27,7 @@ struct RotationComparison {
 /// walk: gyro bias b, wheel scales l and r, track scale t, gyro scale g, the wheels' positions
 /// within their counts, and the delay of the readings. Predicted once a scan by a MotionFactor; a
 /// fix of the lidar is a measurement of the pose at its own time. Process and measurement noise
-/// adapt to the innovations (NoiseEstimator). Fixed size, no allocation. Metres, radians, seconds.
+/// adapt to the innovations (NoiseBank). Fixed size, no allocation. Metres, radians, seconds.
 class MotionFilter {
  public:
   /// Of the sensors' noise over a scan, the share in the fix of a scan that is deskewed by them: a
@@ -134,11 +134,13 @@ class MotionFilter {
   }
   /// Of the sensor that measures the rotation.
   WalkNoiseEstimator& heading_noise() { return has_gyro_ ? gyro_noise_ : wheel_noise_; }
-  /// The wheels' angle in the last advance() beside the gyro's; `variance` of both without jitter.
+  void switch_heading_sensor();
+  /// The wheels' angle in the last advance() beside the gyro's, and in those before that had no
+  /// count; `variance` of the difference without jitter.
   WalkStep wheels_beside_gyro(double variance, double jitter_rad2) const;
-  /// A fix of this variance beside the heading by the sensor, but for innovation and correction.
+  /// A fix of this variance beside the heading by the sensor, without innovation and correction.
   WalkStep fix_beside_sensor(double fix_rad2, bool is_deskewed) const;
-  /// After a fix.
+  /// Resets the sums since the last fix.
   void begin_walk();
   void keep_in_bounds();
 
@@ -152,7 +154,8 @@ class MotionFilter {
   std::uint64_t slips_ = 0;
   RotationComparison rotations_;
 
-  // Factors of variances as configured, and the variance of the heading by each since the last fix.
+  // Factors of variances as configured, shares of the floors of counts and fixes, and the variance
+  // of the heading by each sensor since the last fix.
   WalkNoiseEstimator wheel_noise_;
   WalkNoiseEstimator gyro_noise_;
   NoiseEstimator fix_place_;
@@ -164,8 +167,9 @@ class MotionFilter {
   Vector cusum_variances_ = Vector::Zero();
   double wheel_rad2_ = 0;
   double gyro_rad2_ = 0;
-  double by_wheels_rad_ = 0;  ///< of the heading, beside the gyro's
-  double fixed_rad2_ = 0;     ///< variance of the heading after the last fix
+  double by_wheels_rad_ = 0;  ///< change of the heading by compare_rotations() since the last fix
+  double fixed_rad2_ = 0;     ///< variance of the heading after the last fix, changed alike
+  WalkStep uncounted_;        ///< the wheels beside the gyro since the last count
   double rolled_m_ = 0;       ///< without a gyro, which would show slips
   int scans_ = 0;
   bool has_gyro_ = false;

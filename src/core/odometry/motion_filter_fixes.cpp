@@ -102,17 +102,21 @@ bool MotionFilter::correct(const Pose2& T_map_base, const Covariance3& covarianc
   if (!agrees) return false;
 
   const Cholesky3 root(with_floor(known, fix_place_.factor(), heading_noise().floor()));
-  WalkStep step = fix_beside_sensor(covariance(2, 2), epoch.is_deskewed);
+  // With the jitter of the times and what is extrapolated.
+  const double measured_rad2 = known(2, 2) - covariance_(kTheta, kTheta);
+  WalkStep step = fix_beside_sensor(std::max(covariance(2, 2), measured_rad2), epoch.is_deskewed);
+  const double delay_before_s = state_[kDelay];
   const Measurement with_innovation = jacobian_at(epoch) * covariance_;
   detect_changes(with_innovation, root, innovation);
   update<3>(innovation, root.solve_columns(with_innovation).transpose(),
             with_innovation.transpose());
   keep_in_bounds();
+  step.innovation = by_wheels_rad_ + innovation[2];
+  step.correction = by_wheels_rad_ + angle_between(expected.theta_rad, pose_at(epoch).theta_rad) +
+                    epoch.velocity.omega_rad_s * (state_[kDelay] - delay_before_s);
   if (is_slip) {
     heading_noise().restart(step);
   } else {
-    step.innovation = by_wheels_rad_ + innovation[2];
-    step.correction = by_wheels_rad_ + angle_between(expected.theta_rad, pose_at(epoch).theta_rad);
     heading_noise().add(step);
     for (const int i : {0, 1}) {
       fix_place_.add(squared(innovation[i]), squared(kFixFloor_m), known(i, i));

@@ -10,25 +10,28 @@
 
 namespace cornerd::core {
 
-/// A sum whose error walks (a heading by a gyro, the wheels' angle beside it), compared with a
-/// measurement of it that has an error of its own each time. Variances, in any unit.
+/// A sum whose error is a random walk (a heading by a gyro, the wheels' angle beside it), compared
+/// with a measurement of the sum whose error is white. Of the walk and the measurement variances,
+/// in any unit.
 struct WalkStep {
   double innovation = 0;  ///< of the filter that is adapted
   double correction = 0;  ///< of that filter's sum by this measurement
   double walk = 0;        ///< since the last measurement, by the noise as modelled
-  double grown = 0;       ///< by all else
-  /// The walk in the time over which each measurement is a mean of the sum, as modelled: from mean
-  /// to mean a random walk has a third of that less.
+  double grown = 0;       ///< since the last measurement, by other causes
+  /// The walk in the time over which a measurement averages the sum, as modelled: between averages
+  /// over adjacent times a random walk has a third of that less. (They are correlated; that is
+  /// neglected.)
   double averaged = 0;
-  double noise = 0;  ///< of the measurement, but for that
-  double floor = 0;  ///< most that may be added to it
+  double noise = 0;  ///< of the measurement, without the walk in it
+  double floor = 0;  ///< of the measurement, the largest that is unknown
 };
 
 /// Estimates how much larger or smaller a noise is than modelled, from residuals that have other
 /// noise in them as well: the mean over a few factors of variances by their posteriors
-/// (multiple-model estimation, Magill 1965). With `kFloors` above 1 also what share of a floor the
-/// measurements have: each pair of factors is a Kalman filter of its own, since a walk and a noise
-/// of measurements differ in how one innovation follows another, not in their size (Mehra 1970).
+/// (multiple-model estimation, Magill 1965). With more than one floor it also estimates which share
+/// of WalkStep::floor is there: each pair of factor and share is a Kalman filter of its own, since
+/// a walk and white noise differ in how one innovation follows another, not in their size (Mehra
+/// 1970).
 template <std::size_t kFloors>
 class NoiseBank {
  public:
@@ -56,6 +59,7 @@ class NoiseBank {
   }
 
   void add(const WalkStep& step) {
+    if (is_interrupted_) return restart(step);
     for (Model& model : models_) {
       const double noise = model.noise_of(step);
       const double walk = model.factor * (step.walk - step.averaged / 3);
@@ -68,12 +72,29 @@ class NoiseBank {
     }
     take_means();
   }
-  /// The filter starts again from this measurement.
+  /// The sum starts again from this measurement.
   void restart(const WalkStep& step) {
+    is_interrupted_ = false;
     for (Model& model : models_) {
-      model.offset = 0;
+      model.offset = step.innovation - step.correction;
       model.variance = model.noise_of(step);
     }
+  }
+  /// The sum starts again from the next measurement.
+  void interrupt() { is_interrupted_ = true; }
+  /// The measurements are those of `other` from now on: their floor is as estimated there.
+  void take_floor(const NoiseBank& other) {
+    std::array<double, kFactors> of_factor{};
+    std::array<double, kFloors> of_floor{};
+    for (std::size_t i = 0; i < kModels; ++i) {
+      of_factor[i / kFloors] += std::exp(models_[i].log_posterior);
+      of_floor[i % kFloors] += std::exp(other.models_[i].log_posterior);
+    }
+    for (std::size_t i = 0; i < kModels; ++i) {
+      models_[i].log_posterior =
+          std::log(std::max(of_factor[i / kFloors] * of_floor[i % kFloors], kLeastWeight));
+    }
+    take_means();
   }
 
   double factor() const { return factor_; }
@@ -91,6 +112,7 @@ class NoiseBank {
   static constexpr double kOutlier = 16;
   static constexpr double kLeastVariance = 1e-12;
   static constexpr double kNegligible = -20;  ///< log of a share of the mean
+  static constexpr double kLeastWeight = 1e-100;
 
   struct Model {
     double factor = 1;
@@ -128,6 +150,7 @@ class NoiseBank {
   }
 
   std::array<Model, kModels> models_;
+  bool is_interrupted_ = true;
   double factor_ = 1;
   double floor_ = 1;
 };

@@ -34,7 +34,7 @@ struct OdometryLimits {
 
 /// Standard deviations of wheels and gyro. Those of scales and bias are priors of
 /// OdometryParameters; the first two are initial values that the lidar's fixes correct
-/// (NoiseEstimator).
+/// (NoiseBank).
 struct OdometryNoise {
   double wheel_m_per_sqrt_m = 0.0012;  ///< of a wheel's travel after a metre
   double gyro_rad_s_per_sqrt_hz =

@@ -38,9 +38,10 @@ class FilteredDrive {
     filter_.set_pose(measured(), fix_covariance_, {});
   }
 
-  void drive(double duration_s, bool with_fixes, bool with_gyro = true) {
+  void drive(double duration_s, bool with_fixes, bool with_gyro = true,
+             const std::optional<Rates>& steady = std::nullopt) {
     for (int i = 0; i < std::lround(duration_s * 50); ++i, ++ticks_) {
-      const Rates rates = lively_drive(0.02 * ticks_);
+      const Rates rates = steady.value_or(lively_drive(0.02 * ticks_));
       OdometryReading reading = robot_.drive(0.02, rates.speed_m_s, rates.rate_rad_s);
       if (!with_gyro) reading.gyro_rad_s.reset();
       if (const auto step = gate_.add(reading)) filter_.add(*step);

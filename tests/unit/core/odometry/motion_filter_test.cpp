@@ -102,6 +102,16 @@ TEST(MotionFilter, CoarseCounts_QuantizationDoesNotAccumulate) {
   }
 }
 
+// In most scans no wheel comes to another count, and the gyro turns on.
+TEST(MotionFilter, SlowRotation_IsNoNoiseOfWheels) {
+  OdometryConfig config = switched_on();
+  config.geometry.counts_per_turn = 360;
+  Drive drive(config, nominal_errors(), 1);
+  drive.drive(60, true, true, testing::Rates{0, 0.02});
+  const double modelled = config.noise.wheel_m_per_sqrt_m * config.noise.wheel_m_per_sqrt_m;
+  EXPECT_LT(drive.filter().noise(0).wheel_m2_per_m / modelled, 8);
+}
+
 TEST(MotionFilter, WithFixes_ErrorBelowFixNoise) {
   double squares_m2 = 0;
   int count = 0;

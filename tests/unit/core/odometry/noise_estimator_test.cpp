@@ -98,16 +98,15 @@ Estimated estimated_walk(double factor, double floor, double gain, bool averaged
 /// Factors that are tried are 1.9 times each other.
 constexpr double kLogStep = 0.34;
 
-// The innovations of the first two have the same mean square, 6.4.
+// The innovations of both have the same mean square, 8.2.
 TEST(NoiseEstimator, WalkAndWhiteNoise_AreToldApart) {
   for (const double gain : {1.0, 0.3}) {
-    const Estimated much_walk = estimated_walk(6, 0.05, gain);
-    EXPECT_NEAR(std::log(much_walk.factor), std::log(6), kLogStep) << gain;
-    EXPECT_LT(much_walk.floor, 0.15) << gain;
-    const Estimated much_noise = estimated_walk(4, 0.3, gain);
-    EXPECT_NEAR(std::log(much_noise.factor), std::log(4), kLogStep) << gain;
-    EXPECT_NEAR(much_noise.floor, 0.3, 0.1) << gain;
-    EXPECT_NEAR(std::log(estimated_walk(0.3, 1, gain).factor), std::log(0.3), kLogStep) << gain;
+    const Estimated much_walk = estimated_walk(8, 0.03, gain);
+    EXPECT_NEAR(std::log(much_walk.factor), std::log(8), kLogStep) << gain;
+    EXPECT_LT(much_walk.floor, 0.2) << gain;
+    const Estimated much_noise = estimated_walk(0.8, 0.93, gain);
+    EXPECT_NEAR(std::log(much_noise.factor), std::log(0.8), kLogStep) << gain;
+    EXPECT_GT(much_noise.floor, 0.8) << gain;
   }
 }
 
@@ -116,6 +115,32 @@ TEST(NoiseEstimator, MeansOfWalk_FactorIsThatOfWalk) {
     const double factor = estimated_walk(4, 0.05, 1, true, walking).factor;
     EXPECT_NEAR(std::log(factor), std::log(4), kLogStep) << walking;
   }
+}
+
+TEST(NoiseEstimator, OtherMeasurements_FactorStaysAndFloorIsTheirs) {
+  WalkNoiseEstimator wheels(0.1, 100, 0.03);
+  WalkNoiseEstimator gyro(0.1, 100, 0.03);
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 400; ++i) {
+    const double walked = 3 * normal(random);
+    wheels.add(WalkStep{.innovation = walked, .correction = walked, .walk = 1, .floor = 4});
+    // Jumps to and fro are no walk.
+    const double jump = i % 2 == 0 ? 2 : -2;
+    gyro.add(WalkStep{.innovation = jump, .correction = jump, .walk = 0.01, .floor = 1});
+  }
+  const double factor = wheels.factor();
+  ASSERT_LT(wheels.floor(), 0.5);
+  ASSERT_GT(gyro.floor(), 0.9);
+  wheels.take_floor(gyro);
+  EXPECT_NEAR(wheels.factor(), factor, 0.2 * factor);
+  EXPECT_NEAR(wheels.floor(), gyro.floor(), 0.05);
+}
+
+TEST(NoiseEstimator, NothingKnownOrMeasured_FactorsStayFinite) {
+  WalkNoiseEstimator estimator(0.1, 100, 0.03);
+  for (int i = 0; i < 3; ++i) estimator.add(WalkStep{});
+  EXPECT_TRUE(std::isfinite(estimator.factor()) && std::isfinite(estimator.floor()));
 }
 
 }  // namespace
