@@ -112,8 +112,8 @@ void PlaceSearch::fit_best_exactly() {
         })) {
       continue;
     }
-    const bool is_rival = exact_place() != nullptr && tried < kMaxCompared;
-    if (candidate.score >= kMayBeExact && (tried++ == 0 || is_rival)) {
+    const bool competes = exact_place() != nullptr && tried < kMaxCompared;
+    if (candidate.score >= kMayBeExact && (tried++ == 0 || competes)) {
       tried_ = fitter_.exactly(T_map_lidar, kRoughRefinements.front().radius_m);
       if (add_if_exact(tried_)) continue;
     }

@@ -58,8 +58,8 @@ class PlaceSearch {
   /// False, with nothing added, where the last PlaceFitter::exactly() is not exact.
   bool add_if_exact(const VerifiedHypothesis& fit);
   /// The best candidate by few rays alone mostly is the place, and fits exactly: rough fits would
-  /// tell no more of it. Rivals on as many rays are fitted alike: beside an exact fit a rough one
-  /// of the same place loses.
+  /// tell no more of it. Others on as many rays are fitted alike: fitted roughly, even the true
+  /// place loses to one that is fitted exactly.
   void fit_best_exactly();
   /// The last one that was tried, where it led here.
   VerifiedHypothesis fitted_exactly(const Pose2& T_map_lidar);

@@ -91,7 +91,7 @@ TEST(Kidnapping, EachJump_IsCountedOnce) {
   EXPECT_EQ(score.wrong_later, 0u);
 }
 
-// Where walls have been exact, a rival that few rays refined badly fitted worse than the place that
+// Where walls had been exact, a room that few rays refined badly fitted worse than the one that
 // was fitted by all: of this scan a room nine rooms away was named.
 TEST(Trials, EqualRoomsOfExactWalls_AreAllCompared) {
   const core::WallMap map(equal_rooms(12));
