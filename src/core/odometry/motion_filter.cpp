@@ -199,7 +199,7 @@ WalkStep MotionFilter::wheels_beside_gyro(double variance, double jitter_rad2) c
   return {.innovation = difference_rad,
           .correction = difference_rad,
           .walk = wheel_rad2 / wheel_noise_.factor(),
-          .grown = uncounted_.grown + std::max(0.0, variance - wheel_rad2 - ends_rad2),
+          .other = uncounted_.other + std::max(0.0, variance - wheel_rad2 - ends_rad2),
           .noise = jitter_rad2 / 2,
           .floor = ends_rad2 / 2};
 }

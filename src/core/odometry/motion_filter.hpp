@@ -134,6 +134,7 @@ class MotionFilter {
   }
   /// Of the sensor that measures the rotation.
   WalkNoiseEstimator& heading_noise() { return has_gyro_ ? gyro_noise_ : wheel_noise_; }
+  const WalkNoiseEstimator& heading_noise() const { return has_gyro_ ? gyro_noise_ : wheel_noise_; }
   void switch_heading_sensor();
   /// The wheels' angle in the last advance() beside the gyro's, and in those before that had no
   /// count; `variance` of the difference without jitter.

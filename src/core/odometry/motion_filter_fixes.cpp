@@ -127,12 +127,12 @@ bool MotionFilter::correct(const Pose2& T_map_base, const Covariance3& covarianc
 }
 
 WalkStep MotionFilter::fix_beside_sensor(double fix_rad2, bool is_deskewed) const {
-  const double factor = (has_gyro_ ? gyro_noise_ : wheel_noise_).factor();
+  const double factor = heading_noise().factor();
   const double walk_rad2 = has_gyro_ ? gyro_rad2_ : wheel_rad2_;
   const double scan_rad2 = is_deskewed ? walk_rad2 / std::max(1, scans_) : 0;
   const double grown_rad2 = covariance_(kTheta, kTheta) - fixed_rad2_ - slip_rad2(rolled_m_);
   return {.walk = walk_rad2,
-          .grown = std::max(0.0, grown_rad2 - factor * walk_rad2),
+          .other = std::max(0.0, grown_rad2 - factor * walk_rad2),
           .averaged = scan_rad2,
           .noise = std::max(0.0, fix_rad2 - kDeskewNoiseShare * factor * scan_rad2),
           .floor = squared(kFixFloor_rad)};

@@ -11,13 +11,13 @@
 namespace cornerd::core {
 
 /// A sum whose error is a random walk (a heading by a gyro, the wheels' angle beside it), compared
-/// with a measurement of the sum whose error is white. Of the walk and the measurement variances,
-/// in any unit.
+/// with a measurement of the sum whose error is white. All but innovation and correction are
+/// variances, in any unit.
 struct WalkStep {
   double innovation = 0;  ///< of the filter that is adapted
   double correction = 0;  ///< of that filter's sum by this measurement
   double walk = 0;        ///< since the last measurement, by the noise as modelled
-  double grown = 0;       ///< since the last measurement, by other causes
+  double other = 0;       ///< since the last measurement, by other causes
   /// The walk in the time over which a measurement averages the sum, as modelled: between averages
   /// over adjacent times a random walk has a third of that less. (They are correlated; that is
   /// neglected.)
@@ -45,7 +45,7 @@ class NoiseBank {
                         squared(kPriorSigma) / 2;
       model.log_posterior = model.log_prior;
     }
-    take_means();
+    update_means();
   }
 
   /// `squared`: the residual's; `modelled`: its variance by the noise as modelled; `other`: by all
@@ -53,9 +53,9 @@ class NoiseBank {
   void add(double squared, double modelled, double other) {
     if (!(modelled > 0)) return;
     for (Model& model : models_) {
-      model.judge(squared, model.factor * modelled + std::max(other, 0.0));
+      model.update_posterior(squared, model.factor * modelled + std::max(other, 0.0));
     }
-    take_means();
+    update_means();
   }
 
   void add(const WalkStep& step) {
@@ -63,14 +63,14 @@ class NoiseBank {
     for (Model& model : models_) {
       const double noise = model.noise_of(step);
       const double walk = model.factor * (step.walk - step.averaged / 3);
-      const double before = model.variance + step.grown + walk;
+      const double before = model.variance + step.other + walk;
       const double variance = std::max(before + noise, kLeastVariance);
       const double residual = step.innovation - model.offset;
-      model.judge(squared(residual), variance);
+      model.update_posterior(squared(residual), variance);
       model.offset += before / variance * residual - step.correction;
       model.variance = before * noise / variance;
     }
-    take_means();
+    update_means();
   }
   /// The sum starts again from this measurement.
   void restart(const WalkStep& step) {
@@ -94,7 +94,7 @@ class NoiseBank {
       models_[i].log_posterior =
           std::log(std::max(of_factor[i / kFloors] * of_floor[i % kFloors], kLeastWeight));
     }
-    take_means();
+    update_means();
   }
 
   double factor() const { return factor_; }
@@ -123,7 +123,7 @@ class NoiseBank {
     double variance = 0;  ///< of it
 
     double noise_of(const WalkStep& step) const { return step.noise + floor * step.floor; }
-    void judge(double squared, double expected) {
+    void update_posterior(double squared, double expected) {
       log_posterior = kMemory * log_posterior + (1 - kMemory) * log_prior -
                       (std::log(expected) + std::min(squared / expected, kOutlier)) / 2;
     }
@@ -132,7 +132,7 @@ class NoiseBank {
   static double share_of(std::size_t i, std::size_t n) {
     return n > 1 ? static_cast<double>(i) / static_cast<double>(n - 1) : 1;
   }
-  void take_means() {
+  void update_means() {
     double most = models_.front().log_posterior;
     for (const Model& model : models_) most = std::max(most, model.log_posterior);
     double sum = 0;

@@ -99,23 +99,24 @@ const VerifiedHypothesis* PlaceSearch::exact_place() const {
 }
 
 void PlaceSearch::fit_best_exactly() {
-  if (exact_place() != nullptr || candidates_.empty()) return;
-  std::sort(candidates_.begin(), candidates_.end(), is_better);
-  if (candidates_.front().is_sure) return;
+  if (exact_place() != nullptr || candidates_.empty() || candidates_.front().is_sure) return;
   std::size_t kept = 0;
   std::size_t tried = 0;
+  bool found = false;
   for (const Candidate& candidate : candidates_) {
     const Pose2& T_map_lidar = candidate.T_map_lidar;
-    if (std::any_of(places_.begin(), places_.end(), [&](const VerifiedHypothesis& place) {
-          return place.is_exact &&
-                 same_pose(place.refined.T_map_lidar, T_map_lidar, kOnePlace_m, kOnePlace_rad);
-        })) {
-      continue;
-    }
-    const bool competes = exact_place() != nullptr && tried < kMaxCompared;
-    if (candidate.score >= kMayBeExact && (tried++ == 0 || competes)) {
+    const auto is_there = [&](const VerifiedHypothesis& place) {
+      return place.is_exact &&
+             same_pose(place.refined.T_map_lidar, T_map_lidar, kOnePlace_m, kOnePlace_rad);
+    };
+    if (found && std::any_of(places_.begin(), places_.end(), is_there)) continue;
+    if (candidate.score >= kMayBeExact && (tried == 0 || (found && tried < kMaxCompared))) {
+      ++tried;
       tried_ = fitter_.exactly(T_map_lidar, kRoughRefinements.front().radius_m);
-      if (add_if_exact(tried_)) continue;
+      if (add_if_exact(tried_)) {
+        found = true;
+        continue;
+      }
     }
     candidates_[kept++] = candidate;
   }
@@ -162,7 +163,6 @@ bool PlaceSearch::is_known(const Pose2& T_map_lidar, std::size_t kept) const {
 }
 
 void PlaceSearch::refine_roughly() {
-  std::sort(candidates_.begin(), candidates_.end(), is_better);
   candidates_.resize(std::min(candidates_.size(), kMaxRefined));
   const VerifiedHypothesis* exact = exact_place();
   if (exact != nullptr && !candidates_.empty()) {
@@ -222,6 +222,7 @@ void PlaceSearch::add(const VerifiedHypothesis& exact, const Candidate& candidat
 }
 
 std::span<const VerifiedHypothesis> PlaceSearch::find() {
+  std::sort(candidates_.begin(), candidates_.end(), is_better);
   fit_best_exactly();
   refine_roughly();
   const std::size_t most = best_score_ > 0 ? kMaxCompared : kMaxUnlikely;
