@@ -112,7 +112,7 @@ Decision Localizer::Workspace::compare_places(TimeNs t_ns) {
   if (!is_conclusive(t_ns)) search_map(t_ns);
 
   // 4. One place is a fix, several are ambiguous, none is lost.
-  candidates = place->place_search.places();
+  candidates = place->place_search.compare();
   filtered = filter;
   return decide(candidates, memory.prior(t_ns), filtered);
 }

@@ -36,7 +36,7 @@ Decision decide(std::span<const VerifiedHypothesis> places, const std::optional<
   if (of_rest < kWrongFixRate && places.front().refined.is_held()) {
     decision.state = PoseState::kFix;
     decision.doubt = doubt_of_named(decision.doubt);
-  } else if (elsewhere < kMaxElsewhere) {
+  } else if (elsewhere < kMaxElsewhere && decision.rivals <= kMaxAlternatives) {
     decision.state = PoseState::kAmbiguous;
     decision.doubt = std::max(decision.doubt, kLeastDoubt);
   }

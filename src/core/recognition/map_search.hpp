@@ -24,7 +24,7 @@ class MapSearch {
   explicit MapSearch(const WallMap& map);
 
   /// Number of poses found: more than look alike in one building.
-  static constexpr std::size_t kMaxFound = 48;
+  static constexpr std::size_t kMaxFound = 64;
 
   /// The best distinct poses, best first; `votes` is the mean score of a point, 0 to 100.
   /// `segments`: walls of the scan.

@@ -34,6 +34,8 @@ class PlaceSearch {
   void consider_prior(const Pose2& T_map_lidar, double search_radius_m);
   /// Compares what was considered since begin(). Distinct places, the likeliest first.
   std::span<const VerifiedHypothesis> find();
+  /// The same after find(), and the likeliest compared with each of those that are in doubt.
+  std::span<const VerifiedHypothesis> compare();
   /// The result of the last find().
   std::span<const VerifiedHypothesis> places() const { return places_; }
   /// The likeliest place if every wall were where the map has it and the rays explained by it or by
@@ -51,6 +53,9 @@ class PlaceSearch {
     bool is_sure = false;
   };
   static bool is_better(const Candidate& a, const Candidate& b);
+  static bool is_one_place(const Pose2& T_map_one, const Pose2& T_map_other) {
+    return same_pose(T_map_one, T_map_other, 0.3, 0.15);
+  }
   /// The first one; null where there is none.
   const VerifiedHypothesis* exact_place() const;
   /// With its log odds by few rays.
@@ -68,11 +73,20 @@ class PlaceSearch {
   /// The same, or one of the first `kept` candidates.
   bool is_known(const Pose2& T_map_lidar, std::size_t kept) const;
   Candidate refined_roughly(const Candidate& candidate, double least_score);
+  /// Of candidates that are near each other the best, kMaxRefined at most.
+  void take_distinct();
+  void leave_out(const Candidate& candidate);
   void refine_roughly();
   /// `exact`: the place as PlaceFitter::exactly() gave it.
   void add(const VerifiedHypothesis& exact, const Candidate& candidate);
 
   static constexpr std::size_t kMaxCandidates = 512;
+  /// Candidates that are compared on all rays.
+  static constexpr std::size_t kMaxCompared = 16;
+  /// Remaining error of one that was refined on few rays.
+  static constexpr double kFewRaysRadius_m = 0.03;
+  /// Nats behind the likeliest on few rays, beyond which none was the right one.
+  static constexpr double kHopeless = 16;
 
   const Recognition& recognition_;
   PlaceFitter fitter_;
@@ -82,6 +96,8 @@ class PlaceSearch {
   ScanStructure structure_;
   std::vector<Candidate> candidates_;  ///< since the last find()
   double best_score_ = 0;              ///< of them and those before, on few rays
+  double best_rough_score_ = 0;        ///< of any since begin()
+  bool is_crowded_ = false;            ///< more fit as well as the best than are compared
   std::vector<VerifiedHypothesis> places_;
   std::vector<VerifiedHypothesis> open_places_;  ///< whose pose the scan does not determine
   std::optional<VerifiedHypothesis> exact_;

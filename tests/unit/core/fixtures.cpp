@@ -43,9 +43,10 @@ FloorPlan l_shaped_room() {
   return plan;
 }
 
-FloorPlan two_equal_rooms() {
+FloorPlan equal_rooms(int count) {
   FloorPlan plan;
-  for (const double x : {0.0, 5.0}) {
+  for (int i = 0; i < count; ++i) {
+    const double x = 5.0 * i;
     add_box(plan, x, 0, x + 3, 2);
     plan.walls.push_back({{x + 1, 0}, {x + 1, 0.7}, kThickness_m});  // breaks the room's symmetry
   }

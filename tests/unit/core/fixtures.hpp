@@ -19,8 +19,9 @@ FloorPlan rectangular_room(double width_m, double depth_m);
 /// An L-shaped room of 4 x 3 m without symmetry: its upper right quarter is solid.
 FloorPlan l_shaped_room();
 
-/// Two equal rectangular rooms side by side, not visible from each other.
-FloorPlan two_equal_rooms();
+/// Equal rectangular rooms side by side, not visible from each other.
+FloorPlan equal_rooms(int count);
+inline FloorPlan two_equal_rooms() { return equal_rooms(2); }
 
 /// The walls each displaced across themselves by N(0, sigma_m).
 FloorPlan with_walls_off(FloorPlan plan, double sigma_m, std::uint64_t seed);

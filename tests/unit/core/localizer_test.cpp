@@ -60,6 +60,18 @@ TEST(Localizer, TwoEqualRooms_AmbiguousWithoutPrior) {
   EXPECT_EQ(pose.alternatives.size(), 2U);
 }
 
+TEST(Localizer, ManyEqualRooms_EachIsAnAlternativeOrNone) {
+  for (const int rooms : {5, 12, 16, 17, 20, 40}) {
+    const auto map = testing::make_map(testing::equal_rooms(rooms));
+    testing::ScanSource source(65);
+    Localizer localizer(map, {});
+    const PoseEstimate& pose = localizer.step(source.take(*map, {1.8, 1.2, 0.3})).pose;
+    const bool is_listed = rooms <= static_cast<int>(kMaxAlternatives);
+    EXPECT_EQ(pose.state, is_listed ? PoseState::kAmbiguous : PoseState::kLost) << rooms;
+    EXPECT_EQ(pose.alternatives.size(), is_listed ? rooms : 0U) << rooms;
+  }
+}
+
 TEST(Localizer, OtherBuilding_GivesNoPose) {
   const auto map = testing::make_map(testing::l_shaped_room());
   const auto elsewhere = testing::make_map(testing::rectangular_room(7, 6.3));

@@ -49,6 +49,13 @@ TEST(Decide, TwoEqualPlaces_AreAmbiguous) {
   EXPECT_EQ(decision.rivals, 2U);
 }
 
+TEST(Decide, MorePlacesThanAnAnswerHolds_AreLost) {
+  std::vector<VerifiedHypothesis> places(kMaxAlternatives, place_at(1, 30));
+  EXPECT_EQ(decide_alone(places).state, PoseState::kAmbiguous);
+  places.push_back(place_at(1, 30));
+  EXPECT_EQ(decide_alone(places).state, PoseState::kLost);
+}
+
 TEST(Decide, ManyUnlikelyPlaces_AreAmbiguousTogether) {
   std::vector<VerifiedHypothesis> places = {place_at(1, 30), place_at(5, 18)};
   const Decision alone = decide_alone(places);

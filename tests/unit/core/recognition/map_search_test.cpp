@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "../fixtures.hpp"
 #include "core/breakpoint/detector.hpp"
@@ -46,6 +47,23 @@ TEST_F(MapSearchTest, TwoPlacesInASymmetricRoom_AreDistinctAndBestFirst) {
   EXPECT_TRUE(std::is_sorted(found.begin(), found.end(),
                              [](const auto& a, const auto& b) { return a.votes > b.votes; }));
   EXPECT_FALSE(same_pose(found[0].T_map_lidar, found[1].T_map_lidar, 0.2, radians(5)));
+}
+
+TEST_F(MapSearchTest, TwoSidesOfAThinWall_BothAreFound) {
+  // The walls of one corner, 12 cm thick, seen from within and, as far as the field can tell, from
+  // behind them.
+  FloorPlan corner;
+  corner.thickness_m = 0.12;
+  corner.walls = {{{0, 0}, {3, 0}}, {{0, 0}, {0, 3}}};
+  map_ = testing::make_map(std::move(corner));
+  search_ = MapSearch(*map_);
+  for (int k = 0; k < 20; ++k) {
+    const Pose2 T_map_lidar = source_.place_in(0.3, 2, 0.3, 2);
+    const auto found = find(source_.take(*map_, T_map_lidar));
+    EXPECT_TRUE(std::any_of(found.begin(), found.end(), [&](const PoseHypothesis& other) {
+      return same_pose(other.T_map_lidar, T_map_lidar, 0.06, radians(2));
+    })) << k;
+  }
 }
 
 TEST_F(MapSearchTest, EmptyScan_FindsNothing) { EXPECT_TRUE(find(Scan()).empty()); }
