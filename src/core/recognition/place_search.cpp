@@ -118,6 +118,7 @@ std::span<const VerifiedHypothesis> PlaceSearch::find() {
 }
 
 std::span<const VerifiedHypothesis> PlaceSearch::compare() {
+  if (places_.empty() || places_.front().log_odds <= 0) return places_;  // elsewhere is likelier
   const auto in_doubt = std::count_if(places_.begin(), places_.end(), [&](const auto& place) {
     return place.log_odds > places_.front().log_odds - kInDoubt;
   });
