@@ -112,9 +112,10 @@ Decision Localizer::Workspace::compare_places(TimeNs t_ns) {
   if (!is_conclusive(t_ns)) search_map(t_ns);
 
   // 4. One place is a fix, several are ambiguous, none is lost.
-  candidates = place->place_search.compare();
+  candidates = place->place_search.places();
   filtered = filter;
-  return decide(candidates, memory.prior(t_ns), filtered);
+  is_complete = place->place_search.is_complete();
+  return decide(candidates, is_complete, memory.prior(t_ns), filtered);
 }
 
 const PoseEstimate* Localizer::add(const OdometryReading& reading) {

@@ -55,7 +55,8 @@ void Localizer::Workspace::look(const Scan& scan, TimeNs t_ns, const ScanMotion&
                  [&](const Alternative& last) {
                    return PoseHypothesis{last.T_map_base * config.T_base_lidar, 0};
                  });
-  search.consider(std::span(doubted).first(result.pose.alternatives.size()), /*are_sure=*/true);
+  const std::size_t doubts = is_complete ? result.pose.alternatives.size() : 0;
+  search.consider(std::span(doubted).first(doubts), /*are_sure=*/true);
   pairs = place->recognition.from_pairs(result.detection.breakpoints);
   search.consider(pairs.first(count_likely(pairs, kLikelyShare)));
   search.find();

@@ -13,7 +13,6 @@
 #include "core/breakpoint/detector.hpp"
 #include "core/recognition/beam_model.hpp"
 #include "core/recognition/map_search.hpp"
-#include "core/recognition/place_comparison.hpp"
 #include "core/recognition/place_evidence.hpp"
 #include "core/recognition/place_search.hpp"
 #include "replay/simulator/clutter.hpp"
@@ -126,7 +125,7 @@ core::FloorPlan aged(core::FloorPlan plan, const ScanConditions& drawn, replay::
 const char* const kEvidenceColumns =
     "scan,given,wrong_map,right,log_odds,rays,hits,shorts,violations,map_sigma,faces_log_ratio,"
     "faces,unseen_faces,predicted,predicted_hits,obstacles_m,missing_walls,rays_through,wall_ends,"
-    "wall_m,segments,best_whole_m,best_part_m,whole_m,part_m";
+    "wall_m,segments";
 
 struct EvidenceSamples::State {
   /// What localizes in one map.
@@ -137,7 +136,6 @@ struct EvidenceSamples::State {
           map_search(map),
           place_search(map, recognition, config),
           beam_model(map, config.noise),
-          comparison(map.faces().size()),
           detector(config.detector, config.noise) {}
     core::LocalizerConfig config;
     core::Catalog catalog;
@@ -145,9 +143,6 @@ struct EvidenceSamples::State {
     core::MapSearch map_search;
     core::PlaceSearch place_search;
     core::BeamModel beam_model;
-    core::PlaceComparison comparison;
-    core::ScanAtPlace best;  ///< the first place of a scan
-    core::ScanAtPlace there;
     core::Detector detector;
   };
 
@@ -201,7 +196,6 @@ struct EvidenceSamples::State {
     core::PlaceSearch& search = searcher->place_search;
     const core::ScanStructure structure = core::scan_structure(detection.segments);
     std::ostringstream text;
-    bool is_first = true;
     const auto begin = [&] {
       search.begin(points, detection.segments, detection.breakpoints,
                    {.noise_scale = detection.noise_scale});
@@ -219,17 +213,7 @@ struct EvidenceSamples::State {
            << s.free_space_violations << ',' << s.map_sigma_m << ',' << s.faces_log_ratio << ','
            << s.faces << ',' << s.unseen_faces << ',' << s.predicted << ',' << s.predicted_hits
            << ',' << s.obstacles_m << ',' << s.missing_walls << ',' << s.rays_through << ','
-           << search.wall_ends(at) << ',' << structure.wall_m << ',' << structure.segments;
-      searcher->beam_model.faces_hit(s.map_sigma_m, searcher->there.faces);
-      if (is_first) searcher->best = searcher->there;
-      is_first = false;
-      for (const bool is_best : {true, false}) {
-        const core::ShownWalls shown = searcher->comparison.shown_at(
-            is_best ? searcher->best : searcher->there, is_best ? searcher->there : searcher->best,
-            points.points(), points.spacing_rad());
-        text << ',' << shown.whole_m << ',' << shown.part_m;
-      }
-      text << '\n';
+           << search.wall_ends(at) << ',' << structure.wall_m << ',' << structure.segments << '\n';
     };
     if (!is_given) {
       begin();

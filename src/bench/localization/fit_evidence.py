@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Fits the weights of core/recognition/place_evidence.cpp and place_comparison.cpp.
+"""Fits the weights of core/recognition/place_evidence.cpp.
 
     cornerd-bench --evidence samples.csv --positions 16000
     fit_evidence.py samples.csv
@@ -8,10 +8,8 @@
 Conditional logistic regression: the places of a scan compete with "elsewhere" (log odds 0). A wrong
 place beyond the threshold of a fix (log odds 11.5) costs as much as WRONG_COST or WRONG_PLACE_COST
 right ones below it. The loss has more than one minimum: the search begins at the weights in the tree
-(START). Logistic regression of the best place of a scan in the right map against each other one: one of
-both is right, and log odds of the wrong one beyond the threshold cost as much as WRONG_PLACE_COST right
-ones below it. Prints last how much likelier log odds are at the right place than at one that is given and
-wrong (core/recognition/place_filter.cpp). The weights of the first in the tree were fitted with other scans as
+(START). Prints last how much likelier log odds are at the right place than at one that is given and
+wrong (core/recognition/place_filter.cpp). The weights in the tree were fitted with other scans as
 well (src/bench/poses.md, "Evidence for a place"). Needs NumPy and SciPy.
 """
 
@@ -24,8 +22,6 @@ FIX = 11.51  # -log(1e-5)
 SCALE = 2.0
 WRONG_COST = 40.0  # in a wrong map
 WRONG_PLACE_COST = 100.0  # in the right one
-LEAST_LOG_ODDS = 3.0  # of the likelier one of a pair
-WIDTH = 0.3  # m, of walls
 RIDGE = 1e-4
 START = {
     "intercept": -1.835, "face": 1.571, "faces_log_ratio": 0.113, "wall_end": 1.476,
@@ -106,37 +102,6 @@ def fit(x, right, scan, wrong_map, start):
     return found.x / scale
 
 
-def pairs(c):
-    """What PlaceComparison::log_odds() takes, of the first place of a scan over each other one, and
-    whether the first one is right; of pairs with one right place."""
-    first = np.maximum.accumulate(
-        np.where(np.r_[True, np.diff(c["scan"]) != 0], np.arange(len(c)), 0))
-    best = c[first]
-    x = np.stack([
-        best["log_odds"] - c["log_odds"], np.log(best["map_sigma"] / c["map_sigma"]),
-        np.log((c["best_whole_m"] + WIDTH) / (c["whole_m"] + WIDTH)),
-        np.log((c["best_part_m"] + WIDTH) / (c["part_m"] + WIDTH))], 1)
-    kept = (best["right"] != c["right"]) & (best["log_odds"] > LEAST_LOG_ODDS)
-    return x[kept], best["right"][kept] == 1
-
-
-def fit_comparison(x, right):
-    towards_right = np.where(right[:, None], x, -x)
-    scale = towards_right.std(0)
-    z_x = towards_right / scale
-
-    def loss(w):
-        z = z_x @ w
-        named, wrong = (z - FIX) / SCALE, (-z - FIX) / SCALE
-        value = np.logaddexp(0, -named) + WRONG_PLACE_COST * np.logaddexp(0, wrong)
-        with np.errstate(over="ignore"):
-            by_z = -1 / (1 + np.exp(named)) - WRONG_PLACE_COST / (1 + np.exp(-wrong))
-        return value.mean() + RIDGE * w @ w, z_x.T @ by_z / SCALE / len(x) + 2 * RIDGE * w
-
-    found = minimize(loss, 0.1 * scale, jac=True, method="L-BFGS-B", options={"maxiter": 2000})
-    return found.x / scale
-
-
 def print_ratios(given):
     """The logarithm of the ratio of both histograms, by log odds."""
     edges = [-1e9, -40, -30, -25, -20, -16, -12, -8, -4, 0, 5, 11.5, 1e9]
@@ -167,13 +132,6 @@ def main():
     print(f"right places named {np.mean(lo[in_map & good] > FIX):.3f}, of right maps' scans "
           f"{np.sum(in_map & good & (lo > FIX)) / in_map.sum():.3f}; wrong ones named: "
           f"{np.sum(~good & (lo > FIX))} of {len(lo)} scans", file=sys.stderr)
-    x, best_is_right = pairs(table[table["wrong_map"] == 0])
-    w = fit_comparison(x, best_is_right)
-    print("comparison: " + ", ".join(f"{weight:.4g}" for weight in w))
-    z = x @ w
-    towards_right = np.where(best_is_right, x @ w, -x @ w)
-    print(f"of {len(x)} pairs in the right map {np.sum(towards_right > FIX)} are told apart, "
-          f"{np.sum(towards_right < -FIX)} wrongly", file=sys.stderr)
     print_ratios(given)
 
 

@@ -74,8 +74,6 @@ class BeamModel {
   /// The same at the prior's place, among walls where the map has them: a ray that ends near one is
   /// off by a motion that changes. No wall is missing there, and nothing stands before it.
   BeamStatistics statistics_if_exact();
-  /// The face that each ray hits; PredictedHit::kNone for one that hits none.
-  void faces_hit(double map_sigma_m, std::vector<std::uint32_t>& faces) const;
 
   /// Standard deviations of a face's offset across itself that are tried, m.
   static constexpr std::array kMapSigmas_m = {0.003, 0.01, 0.025, 0.05};

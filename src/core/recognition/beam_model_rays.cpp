@@ -148,14 +148,6 @@ BeamCounts BeamModel::counts() const {
   return result;
 }
 
-void BeamModel::faces_hit(double map_sigma_m, std::vector<std::uint32_t>& faces) const {
-  faces.clear();
-  for (const Ray& ray : rays_) {
-    const bool hits = outcome_of(ray, map_sigma_m) == Outcome::kHit;
-    faces.push_back(hits ? ray.face : PredictedHit::kNone);
-  }
-}
-
 void BeamModel::classify(double map_sigma_m, double near_sigma_m, BeamStatistics& result) {
   result.rays = rays_.size();
   result.map_sigma_m = map_sigma_m;

@@ -12,15 +12,19 @@ constexpr double kMaxElsewhere = 0.01;
 /// No scan shows more (src/bench/poses.md).
 constexpr double kLeastDoubtOfNamed = 1e-6;
 
+/// A place that was left out is as likely as the best.
+constexpr double kDoubtOfIncomplete = 0.5;
+
 /// Rays are not independent: of fixes of which the odds leave p, about sqrt(p) are wrong.
 double doubt_of_named(double by_odds) { return std::max(std::sqrt(by_odds), kLeastDoubtOfNamed); }
 
 }  // namespace
 
-Decision decide(std::span<const VerifiedHypothesis> places, const std::optional<Prior>& prior,
-                PlaceFilter& filter) {
+Decision decide(std::span<const VerifiedHypothesis> places, bool is_complete,
+                const std::optional<Prior>& prior, PlaceFilter& filter) {
   Decision decision;
   decision.doubt = 1;
+  if (!is_complete && !prior) filter.forget();
   if (places.empty()) return decision;
   // Relative to the likeliest place; "elsewhere" has log odds 0.
   const double best = places.front().log_odds;
@@ -33,12 +37,12 @@ Decision decide(std::span<const VerifiedHypothesis> places, const std::optional<
   decision.rivals = std::max<std::size_t>(decision.rivals, 1);
   const double of_rest = of_others + elsewhere;
   decision.doubt = of_rest / (1 + of_rest);
-  if (of_rest < kWrongFixRate && places.front().refined.is_held()) {
+  if (of_rest < kWrongFixRate && is_complete && places.front().refined.is_held()) {
     decision.state = PoseState::kFix;
     decision.doubt = doubt_of_named(decision.doubt);
-  } else if (elsewhere < kMaxElsewhere && decision.rivals <= kMaxAlternatives) {
+  } else if (elsewhere < kMaxElsewhere) {
     decision.state = PoseState::kAmbiguous;
-    decision.doubt = std::max(decision.doubt, kLeastDoubt);
+    decision.doubt = std::max(decision.doubt, is_complete ? kLeastDoubt : kDoubtOfIncomplete);
   }
   filter.update(places, prior);
   if (filter.likeliest() && filter.doubt() < kWrongFixRate && decision.state != PoseState::kFix) {

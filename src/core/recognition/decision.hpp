@@ -27,11 +27,12 @@ struct Decision {
 
 /// Names the fewest places of PlaceSearch, the likeliest first, that leave out no more than
 /// kWrongFixRate of the scan's belief: one of them is a fix, several are ambiguous. That the scan
-/// was taken somewhere else, or not in this map, is a hypothesis of its own. `prior`: where the
-/// robot should be by what was known before. What the last scans showed is in the filter, which it
-/// updates.
-Decision decide(std::span<const VerifiedHypothesis> places, const std::optional<Prior>& prior,
-                PlaceFilter& filter);
+/// was taken somewhere else, or not in this map, is a hypothesis of its own. Where places were left
+/// out (not `is_complete`) the scan names none, and nothing is known of which of many it is.
+/// `prior`: where the robot should be by what was known before. What the last scans showed is in
+/// the filter, which it updates.
+Decision decide(std::span<const VerifiedHypothesis> places, bool is_complete,
+                const std::optional<Prior>& prior, PlaceFilter& filter);
 
 /// True for a place that leaves no doubt that the scan was taken in this map.
 bool is_in_map(const VerifiedHypothesis& place);

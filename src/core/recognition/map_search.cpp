@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kHeadingStep_rad = kTwoPi / static_cast<double>(MapSearch::kHeadings);
 /// Poses closer than this are one. The two sides of a wall, to which the field is the same, are
-/// not.
-constexpr double kDistinct_m = 0.1;
+/// not, unless it is thinner.
+constexpr double kDistinct_m = 0.12;
 constexpr double kDistinct_rad = radians(9);
 /// A wall shorter than this, or of fewer samples, has no certain direction.
 constexpr double kMinWall_m = 0.15;

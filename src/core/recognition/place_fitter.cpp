@@ -35,11 +35,8 @@ PlaceFitter::PlaceFitter(const WallMap& map, const LocalizerConfig& config)
     : map_(map),
       ray_caster_(config.max_range_m),
       refinement_(config.max_range_m, config.noise),
-      beam_model_(map, config.noise),
-      comparison_(map.faces().size()) {
+      beam_model_(map, config.noise) {
   few_.reserve(2 * kFewRays);
-  one_.faces.reserve(kMaxSamplesPerScan);
-  other_.faces.reserve(kMaxSamplesPerScan);
 }
 
 void PlaceFitter::begin(const PolarScan& scan, const ScanPrior& known) {
@@ -102,19 +99,6 @@ BeamStatistics PlaceFitter::statistics(const VerifiedHypothesis& place) {
   if (place.is_exact && is_followed) return beam_model_.statistics_if_exact();
   return beam_model_.statistics(place.is_exact ? BeamModel::kMapSigmas_m.front()
                                                : known_.max_map_sigma_m);
-}
-
-void PlaceFitter::take(const VerifiedHypothesis& place, ScanAtPlace& there) {
-  meet(place.refined.T_map_lidar);
-  there.log_odds = place.evidence;
-  there.map_sigma_m = place.beam_sigma_m;
-  beam_model_.faces_hit(place.beam_sigma_m, there.faces);
-}
-
-double PlaceFitter::log_odds(const VerifiedHypothesis& one, const VerifiedHypothesis& other) {
-  take(one, one_);
-  take(other, other_);
-  return comparison_.log_odds(one_, other_, points_, spacing_rad_);
 }
 
 VerifiedHypothesis PlaceFitter::exactly(const Pose2& T_map_lidar, double search_radius_m,

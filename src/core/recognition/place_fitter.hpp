@@ -10,19 +10,17 @@
 #include "core/estimate/refinement.hpp"
 #include "core/localizer_config.hpp"
 #include "core/recognition/beam_model.hpp"
-#include "core/recognition/place_comparison.hpp"
 
 namespace cornerd::core {
 
 /// A pose that was refined on all rays.
 struct VerifiedHypothesis {
   RefinedPose refined;
-  BeamCounts rays;          ///< of an exact map; of the likeliest one where it is not
-  double evidence = 0;      ///< log_odds_of_place(), nats
-  double log_odds = 0;      ///< against places that the scan leaves open, too
-  double map_sigma_m = 0;   ///< of the walls' offsets, which `refined` marginalised
-  double beam_sigma_m = 0;  ///< of the walls' offsets, by the rays
-  bool is_exact = false;    ///< the rays hit walls where the map has them, within the noise
+  BeamCounts rays;         ///< of an exact map; of the likeliest one where it is not
+  double evidence = 0;     ///< log_odds_of_place(), nats
+  double log_odds = 0;     ///< against places that the scan leaves open, too
+  double map_sigma_m = 0;  ///< of the walls' offsets, which `refined` marginalised
+  bool is_exact = false;   ///< the rays hit walls where the map has them, within the noise
 };
 
 /// What is known before a scan.
@@ -69,12 +67,9 @@ class PlaceFitter {
   bool is_determined(const RefinedPose& refined) const;
   /// Of all rays at a place. Free where it is that of the last exactly().
   BeamStatistics statistics(const VerifiedHypothesis& place);
-  /// Log odds of one place against another one, by what both explain.
-  double log_odds(const VerifiedHypothesis& one, const VerifiedHypothesis& other);
 
  private:
   void meet(const Pose2& T_map_lidar);
-  void take(const VerifiedHypothesis& place, ScanAtPlace& there);
   bool may_be_off() const { return known_.max_map_sigma_m > BeamModel::kMapSigmas_m.front(); }
 
   const WallMap& map_;
@@ -83,12 +78,9 @@ class PlaceFitter {
   BeamModel beam_model_;
   std::span<const PolarPoint> points_;
   double spacing_rad_ = 0;
-  PlaceComparison comparison_;
   std::vector<PolarPoint> few_;
   ScanPrior known_;
   std::optional<Pose2> T_map_met_;  ///< where the beam model's rays are, all of them
-  ScanAtPlace one_;
-  ScanAtPlace other_;
 };
 
 }  // namespace cornerd::core

@@ -11,12 +11,12 @@ namespace {
 /// that is not known yet.
 constexpr std::size_t kMaxUnlikely = 3;
 constexpr std::size_t kMaxPlaces = 48;
-/// Nats behind the likeliest by itself, beyond which none is the right one.
-constexpr double kInDoubt = 25;
 
 bool is_likelier(const VerifiedHypothesis& one, const VerifiedHypothesis& other) {
   if (one.log_odds != other.log_odds) return one.log_odds > other.log_odds;
-  return one.refined.T_map_lidar.x_m < other.refined.T_map_lidar.x_m;
+  const Pose2& a = one.refined.T_map_lidar;
+  const Pose2& b = other.refined.T_map_lidar;
+  return a.x_m != b.x_m ? a.x_m < b.x_m : a.y_m < b.y_m;
 }
 
 }  // namespace
@@ -27,6 +27,7 @@ PlaceSearch::PlaceSearch(const WallMap& map, const Recognition& recognition,
   candidates_.reserve(kMaxCandidates);
   places_.reserve(kMaxPlaces);
   open_places_.reserve(kMaxPlaces);
+  left_out_.reserve(kMaxCandidates);
 }
 
 void PlaceSearch::begin(const PolarScan& scan, std::span<const WallSegment> segments,
@@ -39,7 +40,7 @@ void PlaceSearch::begin(const PolarScan& scan, std::span<const WallSegment> segm
   candidates_.clear();
   best_score_ = 0;
   best_rough_score_ = 0;
-  is_crowded_ = false;
+  left_out_.clear();
   places_.clear();
   open_places_.clear();
   exact_.reset();
@@ -68,7 +69,6 @@ void PlaceSearch::add(const VerifiedHypothesis& exact, const Candidate& candidat
   place.is_exact = is_exact;
   const Pose2& T_map_lidar = place.refined.T_map_lidar;
   const BeamStatistics statistics = fitter_.statistics(place);
-  place.beam_sigma_m = statistics.map_sigma_m;
   place.evidence = log_odds_of_place(statistics, wall_ends(T_map_lidar), structure_);
   if (!is_exact) {
     place.rays = {.rays = statistics.rays,
@@ -100,12 +100,8 @@ std::span<const VerifiedHypothesis> PlaceSearch::find() {
     add(fitted_exactly(candidate.T_map_lidar), candidate);
   }
   candidates_.clear();
-  // Elsewhere has odds of its own, and those of the places that the scan leaves open and of those
-  // that are left out.
+  // Elsewhere has odds of its own, and those of the places that the scan leaves open.
   double elsewhere = known_.fits_motion ? std::pow(static_cast<double>(points_.size()), 1.5) : 1;
-  if (is_crowded_) {
-    for (const VerifiedHypothesis& place : places_) elsewhere += std::exp(place.evidence);
-  }
   for (const VerifiedHypothesis& open : open_places_) {
     const bool is_a_place = std::any_of(places_.begin(), places_.end(), [&](const auto& place) {
       return is_one_place(place.refined.T_map_lidar, open.refined.T_map_lidar);
@@ -117,23 +113,12 @@ std::span<const VerifiedHypothesis> PlaceSearch::find() {
   return places_;
 }
 
-std::span<const VerifiedHypothesis> PlaceSearch::compare() {
-  if (places_.empty() || places_.front().log_odds <= 0) return places_;  // elsewhere is likelier
-  const auto in_doubt = std::count_if(places_.begin(), places_.end(), [&](const auto& place) {
-    return place.log_odds > places_.front().log_odds - kInDoubt;
+bool PlaceSearch::is_complete() const {
+  return std::all_of(left_out_.begin(), left_out_.end(), [&](const Candidate& candidate) {
+    return std::any_of(places_.begin(), places_.end(), [&](const VerifiedHypothesis& place) {
+      return is_one_place(place.refined.T_map_lidar, candidate.T_map_lidar);
+    });
   });
-  const auto compared = std::span(places_).first(static_cast<std::size_t>(in_doubt));
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < compared.size(); ++i) {
-    if (fitter_.log_odds(compared[i], compared[best]) > 0) best = i;
-  }
-  for (VerifiedHypothesis& place : compared) {
-    if (&place == &compared[best]) continue;
-    const double lead = std::max(0.0, fitter_.log_odds(compared[best], place));
-    place.log_odds = compared[best].log_odds - lead;
-  }
-  std::sort(places_.begin(), places_.end(), is_likelier);
-  return places_;
 }
 
 }  // namespace cornerd::core

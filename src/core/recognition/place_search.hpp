@@ -34,8 +34,9 @@ class PlaceSearch {
   void consider_prior(const Pose2& T_map_lidar, double search_radius_m);
   /// Compares what was considered since begin(). Distinct places, the likeliest first.
   std::span<const VerifiedHypothesis> find();
-  /// The same after find(), and the likeliest compared with each of those that are in doubt.
-  std::span<const VerifiedHypothesis> compare();
+  /// False where the right place may not be among those of find(): more candidates were as good as
+  /// the best than are compared.
+  bool is_complete() const;
   /// The result of the last find().
   std::span<const VerifiedHypothesis> places() const { return places_; }
   /// The likeliest place if every wall were where the map has it and the rays explained by it or by
@@ -96,8 +97,8 @@ class PlaceSearch {
   ScanStructure structure_;
   std::vector<Candidate> candidates_;  ///< since the last find()
   double best_score_ = 0;              ///< of them and those before, on few rays
-  double best_rough_score_ = 0;        ///< of any since begin()
-  bool is_crowded_ = false;            ///< more fit as well as the best than are compared
+  double best_rough_score_ = 0;        ///< of those since begin() that are not sure
+  std::vector<Candidate> left_out_;    ///< candidates that were as good as the best
   std::vector<VerifiedHypothesis> places_;
   std::vector<VerifiedHypothesis> open_places_;  ///< whose pose the scan does not determine
   std::optional<VerifiedHypothesis> exact_;

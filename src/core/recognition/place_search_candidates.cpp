@@ -14,11 +14,13 @@ namespace {
 constexpr std::size_t kMaxRefined = 16;
 /// Rough score, of 1, from which a candidate may fit exactly: nearly all few rays are on walls.
 constexpr double kMayBeExact = 0.9;
+/// Rough score of a place that may be the right one.
+constexpr double kMayBeRight = 0.5;
 /// Places whose rough scores differ by less may be alike.
 constexpr double kAlike = 0.03;
 /// Candidates that lead to one place, and one candidate.
-constexpr double kApart_m = 0.2;
-constexpr double kApart_rad = 0.1;
+constexpr double kApart_m = 0.1;
+constexpr double kApart_rad = 0.05;
 constexpr double kSame_m = 0.06;
 constexpr double kSame_rad = 0.04;
 /// How candidates are refined roughly: with free offsets from a pair of corners, a decimetre off,
@@ -37,7 +39,7 @@ void PlaceSearch::consider(std::span<const PoseHypothesis> hypotheses, bool are_
     if (candidates_.size() == kMaxCandidates) return;
     if (is_compared(hypothesis.T_map_lidar)) continue;
     const double score = fitter_.rough_score(hypothesis.T_map_lidar);
-    best_rough_score_ = std::max(best_rough_score_, score);
+    if (!are_sure) best_rough_score_ = std::max(best_rough_score_, score);
     candidates_.push_back({hypothesis.T_map_lidar, score, 0, are_sure});
   }
 }
@@ -58,6 +60,7 @@ bool PlaceSearch::is_better(const Candidate& a, const Candidate& b) {
   if (a.is_sure != b.is_sure) return a.is_sure;
   if (a.score != b.score) return a.score > b.score;
   if (a.T_map_lidar.x_m != b.T_map_lidar.x_m) return a.T_map_lidar.x_m < b.T_map_lidar.x_m;
+  if (a.T_map_lidar.y_m != b.T_map_lidar.y_m) return a.T_map_lidar.y_m < b.T_map_lidar.y_m;
   return a.T_map_lidar.theta_rad < b.T_map_lidar.theta_rad;
 }
 
@@ -133,7 +136,8 @@ bool PlaceSearch::is_known(const Pose2& T_map_lidar, std::size_t kept) const {
 }
 
 void PlaceSearch::leave_out(const Candidate& candidate) {
-  is_crowded_ = is_crowded_ || candidate.score > best_rough_score_ - kAlike;
+  const bool is_alike = candidate.score > std::max(kMayBeRight, best_rough_score_ - kAlike);
+  if (is_alike && left_out_.size() < kMaxCandidates) left_out_.push_back(candidate);
 }
 
 void PlaceSearch::take_distinct() {
@@ -144,11 +148,11 @@ void PlaceSearch::take_distinct() {
       return same_pose(other.T_map_lidar, candidate.T_map_lidar, kApart_m, kApart_rad);
     });
     if (is_near) continue;
-    if (kept == kMaxRefined) {
+    if (kept < kMaxRefined) {
+      candidates_[kept++] = candidate;
+    } else {
       leave_out(candidate);
-      break;
     }
-    candidates_[kept++] = candidate;
   }
   candidates_.resize(kept);
 }

@@ -22,14 +22,14 @@ VerifiedHypothesis place_at(double x_m, double log_odds) {
 
 Decision decide_alone(const std::vector<VerifiedHypothesis>& places) {
   PlaceFilter filter;
-  return decide(places, std::nullopt, filter);
+  return decide(places, /*is_complete=*/true, std::nullopt, filter);
 }
 
 /// The robot was last named at `T_map_lidar`, and should be there still.
 Decision decide_after(const Pose2& T_map_lidar, const std::vector<VerifiedHypothesis>& places) {
   PlaceFilter filter;
   filter.confirm(T_map_lidar);
-  return decide(places, Prior{T_map_lidar, 0.05, 0.05}, filter);
+  return decide(places, /*is_complete=*/true, Prior{T_map_lidar, 0.05, 0.05}, filter);
 }
 
 TEST(Decide, NoPlace_IsLost) {
@@ -49,11 +49,16 @@ TEST(Decide, TwoEqualPlaces_AreAmbiguous) {
   EXPECT_EQ(decision.rivals, 2U);
 }
 
-TEST(Decide, MorePlacesThanAnAnswerHolds_AreLost) {
-  std::vector<VerifiedHypothesis> places(kMaxAlternatives, place_at(1, 30));
-  EXPECT_EQ(decide_alone(places).state, PoseState::kAmbiguous);
-  places.push_back(place_at(1, 30));
-  EXPECT_EQ(decide_alone(places).state, PoseState::kLost);
+TEST(Decide, PlacesLeftOut_NoneIsNamedWithoutPrior) {
+  const std::vector<VerifiedHypothesis> places = {place_at(1, 30)};
+  PlaceFilter filter;
+  filter.confirm({1, 0, 0});
+  const Decision alone = decide(places, /*is_complete=*/false, std::nullopt, filter);
+  EXPECT_EQ(alone.state, PoseState::kAmbiguous);
+  EXPECT_GE(alone.doubt, 0.5);
+  filter.confirm({1, 0, 0});
+  const Prior prior{{1, 0, 0}, 0.05, 0.05};
+  EXPECT_EQ(decide(places, /*is_complete=*/false, prior, filter).state, PoseState::kTracking);
 }
 
 TEST(Decide, ManyUnlikelyPlaces_AreAmbiguousTogether) {
