@@ -8,7 +8,9 @@
 
 #include "bench/building.hpp"
 #include "bench/localization/kidnapping.hpp"
+#include "bench/localization/world.hpp"
 #include "core/breakpoint/detector.hpp"
+#include "core/localizer.hpp"
 #include "core/recognition/place_search.hpp"
 #include "replay/simulator/random_poses.hpp"
 #include "replay/simulator/scan_simulator.hpp"
@@ -121,6 +123,23 @@ TEST(Trials, EqualRoomsOfExactWalls_AreAllCompared) {
   EXPECT_TRUE(std::any_of(found.begin(), found.end(), [&](const core::VerifiedHypothesis& place) {
     return core::same_pose(place.refined.T_map_lidar, truth, 0.01, 0.01);
   }));
+}
+
+TEST(Trials, TurningAmongManyEqualRooms_NoneIsNamedInAnother) {
+  const auto map = std::make_shared<const core::WallMap>(equal_rooms(40));
+  const CircularMotion motion{0.1, 1.5};
+  for (const std::uint64_t drive : {3, 5, 14, 15}) {
+    const replay::Motion circle = circling(random_circles(*map, motion, 1, drive).front(), motion);
+    replay::ScanSimulator lidar({}, 540, drive);
+    core::Localizer localizer(map, {});
+    core::TimeNs t_ns = 0;
+    for (int k = 0; k < 60; ++k, t_ns += lidar.scan_ns()) {
+      const core::PoseEstimate& pose = localizer.step(lidar.take(*map, t_ns, circle)).pose;
+      if (!core::has_pose(pose.state)) continue;
+      const core::Pose2 truth = circle(pose.t_ns, 0);
+      EXPECT_TRUE(core::same_pose(pose.T_map_base, truth, 0.15, 0.15)) << drive << " " << k;
+    }
+  }
 }
 
 }  // namespace
