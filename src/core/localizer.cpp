@@ -114,8 +114,7 @@ Decision Localizer::Workspace::compare_places(TimeNs t_ns) {
   // 4. One place is a fix, several are ambiguous, none is lost.
   candidates = place->place_search.places();
   filtered = filter;
-  is_complete = place->place_search.is_complete();
-  return decide(candidates, is_complete, memory.prior(t_ns), filtered);
+  return decide(candidates, place->place_search.is_complete(), memory.prior(t_ns), filtered);
 }
 
 const PoseEstimate* Localizer::add(const OdometryReading& reading) {

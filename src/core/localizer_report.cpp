@@ -125,6 +125,7 @@ void Localizer::Workspace::report_pose(const core::VerifiedHypothesis& found, st
 
 void Localizer::Workspace::report_alternatives(std::span<const core::VerifiedHypothesis> rivals) {
   const std::size_t count = std::min(rivals.size(), kMaxAlternatives);
+  alternatives_are_all = place->place_search.is_complete();
   double sum = 0;
   const auto belief = [&](std::size_t i) {
     return std::exp(rivals[i].log_odds - rivals.front().log_odds);

@@ -50,12 +50,13 @@ void Localizer::Workspace::look(const Scan& scan, TimeNs t_ns, const ScanMotion&
                           std::clamp(off_m, kSurePriorRadius_m, kPriorSearchRadius_m));
   }
   // Those that the last scan left in doubt: one that this scan would not propose is a rival still.
+  // A part of many would take the room of those that were left out.
   std::array<PoseHypothesis, kMaxAlternatives> doubted;
   std::transform(result.pose.alternatives.begin(), result.pose.alternatives.end(), doubted.begin(),
                  [&](const Alternative& last) {
                    return PoseHypothesis{last.T_map_base * config.T_base_lidar, 0};
                  });
-  const std::size_t doubts = is_complete ? result.pose.alternatives.size() : 0;
+  const std::size_t doubts = alternatives_are_all ? result.pose.alternatives.size() : 0;
   search.consider(std::span(doubted).first(doubts), /*are_sure=*/true);
   pairs = place->recognition.from_pairs(result.detection.breakpoints);
   search.consider(pairs.first(count_likely(pairs, kLikelyShare)));

@@ -167,8 +167,8 @@ struct Localizer::Workspace {
   TimeNs searched_ns = 0;
   double turned_rad = 0;  ///< since that search began
   ScanRotation rotation;
-  ScanMotion motion;        ///< that `points` were moved back by
-  bool is_complete = true;  ///< none that may be the right one was left out of them
+  ScanMotion motion;                                    ///< that `points` were moved back by
+  bool alternatives_are_all = true;                     ///< that may be right, of the last list
   std::span<const VerifiedHypothesis> candidates;       ///< that the last decision is about
   bool saw_all_around = false;                          ///< in a scan with a pose, ever
   bool doubts_bias = false;                             ///< a stored one, not tried enough

@@ -11,7 +11,6 @@ namespace {
 constexpr double kMaxElsewhere = 0.01;
 /// No scan shows more (src/bench/poses.md).
 constexpr double kLeastDoubtOfNamed = 1e-6;
-
 /// A place that was left out is as likely as the best.
 constexpr double kDoubtOfIncomplete = 0.5;
 

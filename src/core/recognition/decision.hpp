@@ -27,10 +27,10 @@ struct Decision {
 
 /// Names the fewest places of PlaceSearch, the likeliest first, that leave out no more than
 /// kWrongFixRate of the scan's belief: one of them is a fix, several are ambiguous. That the scan
-/// was taken somewhere else, or not in this map, is a hypothesis of its own. Where places were left
-/// out (not `is_complete`) the scan names none, and nothing is known of which of many it is.
-/// `prior`: where the robot should be by what was known before. What the last scans showed is in
-/// the filter, which it updates.
+/// was taken somewhere else, or not in this map, is a hypothesis of its own. Where PlaceSearch
+/// left out places (not `is_complete`) the scan alone names none, and without a prior the filter
+/// begins again. `prior`: where the robot should be by what was known before. What the last scans
+/// showed is in the filter, which it updates.
 Decision decide(std::span<const VerifiedHypothesis> places, bool is_complete,
                 const std::optional<Prior>& prior, PlaceFilter& filter);
 

@@ -8,8 +8,8 @@ namespace cornerd::core {
 namespace {
 
 constexpr double kHeadingStep_rad = kTwoPi / static_cast<double>(MapSearch::kHeadings);
-/// Poses closer than this are one. The two sides of a wall, to which the field is the same, are
-/// not, unless it is thinner.
+/// Poses closer than this are one. The field does not tell a wall's two sides apart: a scan of one
+/// fits the other too, a wall's thickness away, and these are two poses.
 constexpr double kDistinct_m = 0.12;
 constexpr double kDistinct_rad = radians(9);
 /// A wall shorter than this, or of fewer samples, has no certain direction.

@@ -17,13 +17,14 @@ namespace cornerd::core {
 
 /// Search of the whole map for the poses at which most of the scan's walls lie on the map's:
 /// best-first branch and bound on a likelihood field (Hess et al. 2016, algorithm 3; Olson 2015).
-/// It needs no corner and misses no place of its headings, which are those that turn most of the
-/// scan's walls into directions of the map's. Allocates nothing after construction.
+/// It needs no corner and misses none of the best kMaxFound poses of its headings, which are those
+/// that turn most of the scan's walls into directions of the map's. Allocates nothing after
+/// construction.
 class MapSearch {
  public:
   explicit MapSearch(const WallMap& map);
 
-  /// Number of poses found: more than look alike in one building.
+  /// Number of poses found, at most: a narrow view of a corner fits more.
   static constexpr std::size_t kMaxFound = 64;
 
   /// The best distinct poses, best first; `votes` is the mean score of a point, 0 to 100.

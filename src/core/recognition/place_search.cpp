@@ -114,9 +114,9 @@ std::span<const VerifiedHypothesis> PlaceSearch::find() {
 }
 
 bool PlaceSearch::is_complete() const {
-  return std::all_of(left_out_.begin(), left_out_.end(), [&](const Candidate& candidate) {
+  return std::all_of(left_out_.begin(), left_out_.end(), [&](const Pose2& T_map_lidar) {
     return std::any_of(places_.begin(), places_.end(), [&](const VerifiedHypothesis& place) {
-      return is_one_place(place.refined.T_map_lidar, candidate.T_map_lidar);
+      return is_one_place(place.refined.T_map_lidar, T_map_lidar);
     });
   });
 }

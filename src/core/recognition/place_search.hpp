@@ -55,7 +55,9 @@ class PlaceSearch {
   };
   static bool is_better(const Candidate& a, const Candidate& b);
   static bool is_one_place(const Pose2& T_map_one, const Pose2& T_map_other) {
-    return same_pose(T_map_one, T_map_other, 0.3, 0.15);
+    constexpr double kOnePlace_m = 0.3;
+    constexpr double kOnePlace_rad = 0.15;
+    return same_pose(T_map_one, T_map_other, kOnePlace_m, kOnePlace_rad);
   }
   /// The first one; null where there is none.
   const VerifiedHypothesis* exact_place() const;
@@ -71,12 +73,18 @@ class PlaceSearch {
   VerifiedHypothesis fitted_exactly(const Pose2& T_map_lidar);
   /// One of the places that were found is there.
   bool is_compared(const Pose2& T_map_lidar) const;
-  /// The same, or one of the first `kept` candidates.
+  /// One of the first `kept` candidates is near.
+  bool is_candidate(const Pose2& T_map_lidar, std::size_t kept, double near_m,
+                    double near_rad) const;
+  /// One of the places that were found is there, or one of the first `kept` candidates.
   bool is_known(const Pose2& T_map_lidar, std::size_t kept) const;
   Candidate refined_roughly(const Candidate& candidate, double least_score);
-  /// Of candidates that are near each other the best, kMaxRefined at most.
-  void take_distinct();
+  /// By few rays, before it is refined.
+  bool is_as_good_as_the_best(const Candidate& candidate) const;
+  /// It is not compared, and yet may be the right one.
   void leave_out(const Candidate& candidate);
+  /// Keeps of candidates that are near each other the best, kMaxRefined in all.
+  void take_distinct();
   void refine_roughly();
   /// `exact`: the place as PlaceFitter::exactly() gave it.
   void add(const VerifiedHypothesis& exact, const Candidate& candidate);
@@ -98,7 +106,7 @@ class PlaceSearch {
   std::vector<Candidate> candidates_;  ///< since the last find()
   double best_score_ = 0;              ///< of them and those before, on few rays
   double best_rough_score_ = 0;        ///< of those since begin() that are not sure
-  std::vector<Candidate> left_out_;    ///< candidates that were as good as the best
+  std::vector<Pose2> left_out_;        ///< poses of candidates that were as good as the best
   std::vector<VerifiedHypothesis> places_;
   std::vector<VerifiedHypothesis> open_places_;  ///< whose pose the scan does not determine
   std::optional<VerifiedHypothesis> exact_;

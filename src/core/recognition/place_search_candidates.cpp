@@ -18,7 +18,7 @@ constexpr double kMayBeExact = 0.9;
 constexpr double kMayBeRight = 0.5;
 /// Places whose rough scores differ by less may be alike.
 constexpr double kAlike = 0.03;
-/// Candidates that lead to one place, and one candidate.
+/// Candidates that refinement leads to one place from, and one candidate.
 constexpr double kApart_m = 0.1;
 constexpr double kApart_rad = 0.05;
 constexpr double kSame_m = 0.06;
@@ -88,7 +88,7 @@ void PlaceSearch::fit_best_exactly() {
         found = true;
         continue;
       }
-    } else if (found && tried == kMaxCompared) {
+    } else if (found && tried == kMaxCompared && is_as_good_as_the_best(candidate)) {
       leave_out(candidate);
     }
     candidates_[kept++] = candidate;
@@ -127,28 +127,33 @@ bool PlaceSearch::is_compared(const Pose2& T_map_lidar) const {
   });
 }
 
+bool PlaceSearch::is_candidate(const Pose2& T_map_lidar, std::size_t kept, double near_m,
+                               double near_rad) const {
+  const auto others = std::span(candidates_).first(kept);
+  return std::any_of(others.begin(), others.end(), [&](const Candidate& other) {
+    return same_pose(other.T_map_lidar, T_map_lidar, near_m, near_rad);
+  });
+}
+
 bool PlaceSearch::is_known(const Pose2& T_map_lidar, std::size_t kept) const {
-  const auto known = std::span(candidates_).first(kept);
-  return is_compared(T_map_lidar) ||
-         std::any_of(known.begin(), known.end(), [&](const Candidate& other) {
-           return same_pose(other.T_map_lidar, T_map_lidar, kSame_m, kSame_rad);
-         });
+  return is_compared(T_map_lidar) || is_candidate(T_map_lidar, kept, kSame_m, kSame_rad);
+}
+
+bool PlaceSearch::is_as_good_as_the_best(const Candidate& candidate) const {
+  return candidate.score > std::max(kMayBeRight, best_rough_score_ - kAlike);
 }
 
 void PlaceSearch::leave_out(const Candidate& candidate) {
-  const bool is_alike = candidate.score > std::max(kMayBeRight, best_rough_score_ - kAlike);
-  if (is_alike && left_out_.size() < kMaxCandidates) left_out_.push_back(candidate);
+  if (left_out_.size() < kMaxCandidates) left_out_.push_back(candidate.T_map_lidar);
 }
 
 void PlaceSearch::take_distinct() {
   std::size_t kept = 0;
   for (const Candidate& candidate : candidates_) {
-    const auto better = std::span(candidates_).first(kept);
-    const bool is_near = std::any_of(better.begin(), better.end(), [&](const Candidate& other) {
-      return same_pose(other.T_map_lidar, candidate.T_map_lidar, kApart_m, kApart_rad);
-    });
-    if (is_near) continue;
-    if (kept < kMaxRefined) {
+    const bool has_room = kept < kMaxRefined;
+    if (!has_room && !is_as_good_as_the_best(candidate)) continue;
+    if (is_candidate(candidate.T_map_lidar, kept, kApart_m, kApart_rad)) continue;
+    if (has_room) {
       candidates_[kept++] = candidate;
     } else {
       leave_out(candidate);
@@ -174,4 +179,5 @@ void PlaceSearch::refine_roughly() {
   candidates_.resize(kept);
   std::sort(candidates_.begin(), candidates_.end(), is_better);
 }
+
 }  // namespace cornerd::core
